@@ -1,0 +1,31 @@
+# One static library per layer. A layer sees the headers of the layers named in
+# DEPENDS and of nothing else: each layer's headers stand in a staging folder of
+# their own, so that an include across a forbidden boundary does not compile.
+
+add_library(isorelax_build_flags INTERFACE)
+target_compile_options(isorelax_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  # Results are compared bit for bit between builds and thread counts: no contraction into fused operations.
+  -ffp-contract=off
+  $<$<BOOL:${ISORELAX_WERROR}>:-Werror>)
+if(ISORELAX_SANITIZE)
+  target_compile_options(isorelax_build_flags INTERFACE
+    -fsanitize=${ISORELAX_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(isorelax_build_flags INTERFACE -fsanitize=${ISORELAX_SANITIZE})
+endif()
+
+# isorelax_layer(NAME ROOM SOURCES... [DEPENDS targets...] [PRIVATE targets...])
+# ROOM is the folder under core/ or app/; its headers are included as "ROOM/file.h".
+function(isorelax_layer name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})
+  set(target isorelax_${name})
+  set(stage ${CMAKE_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${stage})
+  if(NOT EXISTS ${stage}/${name})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${stage}/${name} SYMBOLIC)
+  endif()
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(isorelax::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC ${stage})
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE isorelax_build_flags ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,24 @@
+#include "mesh/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace isorelax {
+
+void parallel_for_blocks(std::size_t count, unsigned threads,
+                         const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t blocks = block_count(count);
+  const auto run_block = [&](std::size_t block) {
+    body(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
+  };
+  if (threads == 1 || blocks <= 1) {
+    for (std::size_t block = 0; block < blocks; ++block) run_block(block);
+    return;
+  }
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run_block); });
+}
+
+}  // namespace isorelax
