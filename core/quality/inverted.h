@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/topology.h"
+#include "mesh/triangle_mesh.h"
+
+namespace isorelax {
+
+/// Ids of the triangles that lie upside down, ascending.
+///
+/// A mesh in one plane (to 1e-6 of its bounding-box diagonal): those whose signed area has the other sign
+/// than the total signed area. Any other surface has no such sign, and a sharp crease is no fault; there a
+/// triangle is inverted when it is folded over on its surroundings:
+///   - the surface turns by more than 150 degrees across at least two of its edges (or across every edge that
+///     has a triangle beyond it, where that is only one), and
+///   - its normal opposes the area-weighted mean normal of the triangles that share a vertex with it.
+/// Only edges with exactly two triangles of consistent orientation are looked at. A degenerate triangle has
+/// no side and is never inverted.
+[[nodiscard]] std::vector<Index> inverted_triangles(std::span<const Vec3> positions,
+                                                    std::span<const Triangle> triangles,
+                                                    const Topology& topology, unsigned threads = 0);
+
+}  // namespace isorelax
