@@ -1,0 +1,255 @@
+#include "smoothing/problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/error.h"
+#include "smoothing/step_record.h"
+
+namespace isorelax {
+namespace {
+
+/// A triangle with a doubled area below this share of its longest edge squared has no usable normal.
+constexpr double kDegenerate = 1e-12;
+/// A mesh within this share of its extent of a plane is planar.
+constexpr double kPlanar = 1e-12;
+
+std::string list_ids(std::span<const Index> ids) {
+  constexpr std::size_t kShown = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(ids.size(), kShown); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
+  }
+  if (ids.size() > kShown) text += " and " + std::to_string(ids.size() - kShown) + " more";
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+class ProblemBuilder {
+ public:
+  ProblemBuilder(std::span<const Vec3> positions, const ProblemOptions& options, SmoothingProblem& problem)
+      : x_(positions), options_(options), p_(problem) {}
+
+  void build() {
+    find_plane();
+    choose_treated();
+    p_.mobility.assign(p_.vertex_count(), Mobility::plane);
+    p_.fixed_limits.assign(p_.vertex_count(), 0);
+    for (Index v = 0; v < p_.vertex_count(); ++v) apply_class(v);
+    pin_flaws();
+    pin_choice();
+    measure_edges();
+  }
+
+ private:
+  [[nodiscard]] Vec3 area_of(Index t) const {
+    const Triangle& v = p_.triangles[t];
+    return area_vector(x_[v[0]], x_[v[1]], x_[v[2]]);
+  }
+
+  void find_plane() {
+    Vec3 sum = Vec3::Zero();
+    for (Index t = 0; t < p_.triangle_count(); ++t) sum += area_of(t);
+    Vec3 low = Vec3::Constant(INFINITY);
+    Vec3 high = -low;
+    Vec3 used = Vec3::Zero();
+    for (const Triangle& t : p_.triangles) {
+      used = x_[t[0]];
+      for (const Index v : t) {
+        low = low.cwiseMin(x_[v]);
+        high = high.cwiseMax(x_[v]);
+      }
+    }
+    const double extent = (high - low).norm();
+    if (!(sum.norm() > 1e-6 * extent * extent)) return;
+    const Vec3 normal = sum.normalized();
+    for (const Triangle& t : p_.triangles) {
+      for (const Index v : t) {
+        if (std::abs(normal.dot(x_[v] - used)) > kPlanar * extent) return;
+      }
+    }
+    p_.plane_normal = normal;
+  }
+
+  void choose_treated() {
+    p_.treated.assign(p_.triangle_count(), 1);
+    std::vector<Index> degenerate, inverted;
+    for (Index t = 0; t < p_.triangle_count(); ++t) {
+      const Triangle& v = p_.triangles[t];
+      const Vec3 area = area_of(t);
+      const double longest =
+          std::max({(x_[v[1]] - x_[v[0]]).squaredNorm(), (x_[v[2]] - x_[v[1]]).squaredNorm(),
+                    (x_[v[0]] - x_[v[2]]).squaredNorm()});
+      if (!(area.norm() > kDegenerate * longest)) {
+        degenerate.push_back(t);
+      } else if (p_.plane_normal && area.dot(*p_.plane_normal) < 0) {
+        inverted.push_back(t);
+      }
+    }
+    leave_out(degenerate, "degenerate");
+    leave_out(inverted, "inverted");
+    if (std::find(p_.treated.begin(), p_.treated.end(), 1) == p_.treated.end()) {
+      throw MeshError("the mesh has no triangle that can be smoothed");
+    }
+  }
+
+  void leave_out(const std::vector<Index>& triangles, const std::string& kind) {
+    for (const Index t : triangles) {
+      p_.treated[t] = 0;
+      left_out_.push_back(t);
+    }
+    if (triangles.empty()) return;
+    p_.notes.push_back(counted(triangles.size(), kind + " triangle is", kind + " triangles are") +
+                       " left as they are, their vertices pinned: " + list_ids(triangles));
+  }
+
+  void apply_class(Index v) {
+    const auto hold = [&](std::uint16_t limits) {
+      p_.mobility[v] = Mobility::none;
+      p_.fixed_limits[v] |= limits;
+    };
+    const bool border = p_.topology.is_boundary(v);
+    if (border && options_.boundary == BoundaryRule::fixed) return hold(kLimitBoundary);
+    switch (p_.classes.classes[v]) {
+      case VertexClass::smooth:
+        return;
+      case VertexClass::corner:
+        return hold(border ? kLimitCorner | kLimitBoundary : kLimitCorner);
+      case VertexClass::ridge:
+        p_.mobility[v] = Mobility::line;
+        p_.fixed_limits[v] |= kLimitRidge;
+        return;
+      case VertexClass::boundary:
+        if (options_.boundary == BoundaryRule::free) return;
+        p_.mobility[v] = Mobility::line;
+        p_.fixed_limits[v] |= kLimitBoundary;
+        p_.border[v] = border_neighbours(v);
+        return;
+    }
+  }
+
+  /// The two far ends of the border edges at a vertex of class `boundary`, which has exactly two.
+  [[nodiscard]] std::array<Index, 2> border_neighbours(Index v) const {
+    std::array<Index, 2> ends{v, v};
+    for (const Corner c : p_.topology.corners_of(v)) {
+      const unsigned k = c % 3;
+      const Triangle& t = p_.triangles[c / 3];
+      if (p_.topology.is_boundary_edge(c - k + next(k))) ends[0] = t[previous(k)];
+      if (p_.topology.is_boundary_edge(c - k + previous(k))) ends[1] = t[next(k)];
+    }
+    return ends;
+  }
+
+  void pin(Index v) {
+    p_.mobility[v] = Mobility::none;
+    p_.fixed_limits[v] |= kLimitPinned;
+  }
+
+  void pin_flaws() {
+    struct Flaw {
+      std::uint8_t flag;
+      const char* what;
+    };
+    for (const Flaw& flaw :
+         {Flaw{kNonManifoldVertex, "non-manifold"}, Flaw{kInconsistentVertex, "inconsistently oriented"},
+          Flaw{kRepeatedVertex, "twice-named"}, Flaw{kIsolatedVertex, "isolated"}}) {
+      std::vector<Index> found;
+      for (Index v = 0; v < p_.vertex_count(); ++v) {
+        if ((p_.topology.flags(v) & flaw.flag) == 0) continue;
+        pin(v);
+        found.push_back(v);
+      }
+      if (found.empty()) continue;
+      p_.notes.push_back(counted(found.size(), std::string(flaw.what) + " vertex is",
+                                 std::string(flaw.what) + " vertices are") +
+                         " pinned: " + list_ids(found));
+    }
+    for (const Index t : left_out_) {
+      for (const Index v : p_.triangles[t]) pin(v);
+    }
+  }
+
+  void pin_choice() {
+    for (const Index v : options_.pinned) {
+      if (v >= p_.vertex_count()) {
+        throw UsageError("vertex " + std::to_string(v) + " cannot be pinned: the mesh has " +
+                         std::to_string(p_.vertex_count()) + " vertices, numbered from 0");
+      }
+      pin(v);
+    }
+  }
+
+  void measure_edges() {
+    double sum = 0;
+    for (const Triangle& t : p_.triangles) {
+      for (unsigned k = 0; k < 3; ++k) sum += (x_[t[next(k)]] - x_[t[k]]).norm();
+    }
+    p_.mean_edge_length = sum / (3.0 * static_cast<double>(p_.triangles.size()));
+  }
+
+  std::span<const Vec3> x_;
+  const ProblemOptions& options_;
+  SmoothingProblem& p_;
+  std::vector<Index> left_out_;
+};
+
+ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
+                             std::span<const Triangle> triangles) {
+  if (const auto* edge = std::get_if<EdgeLengthReference>(&choice)) {
+    return ReferenceMesh::equilateral_edge(edge->edge_length, static_cast<Index>(triangles.size()));
+  }
+  if (std::holds_alternative<InitialReference>(choice)) return ReferenceMesh::of_mesh(positions, triangles);
+  if (const auto* mesh = std::get_if<MeshReference>(&choice)) {
+    if (mesh->positions.size() != positions.size()) {
+      throw MeshError("the reference has " + std::to_string(mesh->positions.size()) + " vertices, the mesh " +
+                      std::to_string(positions.size()));
+    }
+    return ReferenceMesh::of_mesh(mesh->positions, triangles);
+  }
+  return ReferenceMesh::equilateral_mean_area(positions, triangles);
+}
+
+void check(const ProblemOptions& options) {
+  const EnergyWeights& w = options.weights;
+  if (!(w.shape >= 0) || !(w.area >= 0) || !(w.shape + w.area > 0) || !std::isfinite(w.shape + w.area)) {
+    throw UsageError("the weights must be finite, not negative, and not both zero");
+  }
+  if (!(options.exponent >= 1) || !(options.exponent <= 64))
+    throw UsageError("the exponent must be from 1 to 64");
+}
+
+}  // namespace
+
+SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                              const ProblemOptions& options) {
+  check(options);
+  if (triangles.empty()) throw MeshError("the mesh has no triangle that can be smoothed");
+  Topology topology(triangles, static_cast<Index>(positions.size()));
+  VertexClasses classes =
+      classify_vertices(positions, triangles, topology, options.features, options.threads);
+  SmoothingProblem problem{.triangles = {triangles.begin(), triangles.end()},
+                           .topology = std::move(topology),
+                           .reference = make_reference(options.reference, positions, triangles),
+                           .weights = options.weights,
+                           .exponent = options.exponent,
+                           .classes = std::move(classes),
+                           .mobility = {},
+                           .fixed_limits = {},
+                           .treated = {},
+                           .border = {},
+                           .plane_normal = {},
+                           .mean_edge_length = 0,
+                           .threads = options.threads,
+                           .notes = {}};
+  for (const Index t : problem.reference.replaced()) {
+    problem.notes.push_back("triangle " + std::to_string(t) +
+                            " of the reference is degenerate: an equilateral one stands in");
+  }
+  ProblemBuilder(positions, options, problem).build();
+  return problem;
+}
+
+}  // namespace isorelax

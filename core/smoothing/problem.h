@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <variant>
+
+#include "energy/reference.h"
+#include "energy/triangle_energy.h"
+#include "surface/vertex_class.h"
+
+namespace isorelax {
+
+/// What boundary vertices may do.
+enum class BoundaryRule : std::uint8_t {
+  fixed,  ///< nothing
+  slide,  ///< move along the border; its corners stay
+  free,   ///< move in the tangent plane like any other vertex
+};
+
+/// Equilateral references with the mean area of the mesh.
+struct MeanAreaReference {};
+/// Equilateral references with this edge length.
+struct EdgeLengthReference {
+  double edge_length;
+};
+/// The mesh itself as it is when smoothing starts.
+struct InitialReference {};
+/// Another mesh with the same connectivity: its positions.
+struct MeshReference {
+  std::vector<Vec3> positions;
+};
+using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, InitialReference, MeshReference>;
+
+/// What is minimised and what may move.
+struct ProblemOptions {
+  EnergyWeights weights;
+  /// p >= 1 in sum E^p: larger values drive the worst triangles.
+  double exponent = 1;
+  ReferenceChoice reference = MeanAreaReference{};
+  BoundaryRule boundary = BoundaryRule::fixed;
+  FeatureOptions features;
+  /// Vertices that the user holds.
+  std::vector<Index> pinned;
+  /// Threads for the set-up and the steps; 0: all the machine has. Results do not depend on it.
+  unsigned threads = 0;
+};
+
+/// How far a vertex may move: the dimension of its tangent space.
+enum class Mobility : std::uint8_t { none, line, plane };
+
+/// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.
+struct SmoothingProblem {
+  std::vector<Triangle> triangles;
+  Topology topology;
+  ReferenceMesh reference;
+  EnergyWeights weights;
+  double exponent = 1;
+  VertexClasses classes;
+  std::vector<Mobility> mobility;
+  std::vector<std::uint16_t>
+      fixed_limits;  ///< bits of Limit that hold in every step (pinned, corner, ridge, boundary)
+  std::vector<std::uint8_t> treated;  ///< per triangle: takes part in the energy
+  /// The two border neighbours of every vertex that slides along the border.
+  std::unordered_map<Index, std::array<Index, 2>> border;
+  /// The mesh lies in one plane with this unit normal: moves stay in it exactly.
+  std::optional<Vec3> plane_normal;
+  double mean_edge_length = 0;
+  unsigned threads = 0;
+  /// What was pinned and left out, in words for the user.
+  std::vector<std::string> notes;
+
+  [[nodiscard]] Index vertex_count() const { return topology.vertex_count(); }
+  [[nodiscard]] Index triangle_count() const { return static_cast<Index>(triangles.size()); }
+};
+
+/// Freezes a mesh into a problem. Flawed places (non-manifold, inconsistent, degenerate, inverted in a planar
+/// mesh) are pinned and named in `notes`. Throws MeshError if nothing can be treated or the reference has
+/// another connectivity, UsageError for weights or an exponent out of range or a pinned vertex that does not
+/// exist.
+SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                              const ProblemOptions& options);
+
+}  // namespace isorelax

@@ -1,0 +1,76 @@
+#include "smoothing/run.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace isorelax {
+namespace {
+
+/// The stop that the last record asks for, if any.
+std::optional<StopReason> stop_after(const StepRecord& record, const RunResult& result,
+                                     const RunOptions& options) {
+  if (!(options.tolerance > 0)) return std::nullopt;
+  if (result.gradient_ratio <= options.tolerance) return StopReason::gradient;
+  if (record.moved == 0) return record.energy_passes > 0 ? StopReason::stalled : StopReason::movement;
+  if (result.relative_move <= options.tolerance) return StopReason::movement;
+  if (result.energy_change <= options.tolerance * 1e-3) return StopReason::energy;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::iterations:
+      return "the allowed number of iterations was done";
+    case StopReason::gradient:
+      return "the gradient fell below the tolerance";
+    case StopReason::energy:
+      return "the energy hardly falls any more";
+    case StopReason::movement:
+      return "no vertex moves by more than the tolerance";
+    case StopReason::stalled:
+      return "no step along the direction lowers the energy";
+    case StopReason::fixed:
+      return "no vertex may move";
+    case StopReason::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec3> positions,
+              const RunOptions& options, const StepObserver& observer) {
+  RunResult result;
+  const auto start = std::chrono::steady_clock::now();
+  const bool any_free = std::any_of(problem.mobility.begin(), problem.mobility.end(),
+                                    [](Mobility m) { return m != Mobility::none; });
+  if (!any_free) result.stopped = StopReason::fixed;
+  StepRecord record;
+  double first_gradient = 0;
+  for (unsigned i = 0; any_free && i < options.iterations; ++i) {
+    smoother.step(positions, record);
+    apply_step(record, positions);
+    ++result.iterations;
+    if (i == 0) {
+      result.before = record.before;
+      first_gradient = record.before.gradient_norm;
+    }
+    result.after = record.after;
+    result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
+    result.energy_change = (record.before.energy - record.after.energy) / record.before.energy;
+    result.relative_move = record.largest_move / problem.mean_edge_length;
+    if (observer && !observer(result.iterations, record, positions)) {
+      result.stopped = StopReason::cancelled;
+      break;
+    }
+    if (const auto stop = stop_after(record, result, options)) {
+      result.stopped = *stop;
+      break;
+    }
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace isorelax

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "smoothing/problem.h"
+#include "smoothing/step_record.h"
+
+namespace isorelax {
+
+/// How detailed a record is.
+enum class RecordDetail : std::uint8_t { vertices, vertices_and_triangles };
+
+/// One way of finding the next positions. A step is pure: it fills the caller's record (whose arrays are
+/// reused) and moves nothing.
+class Smoother {
+ public:
+  virtual ~Smoother() = default;
+  virtual void step(std::span<const Vec3> positions, StepRecord& record) = 0;
+};
+
+/// Options of the paper's step (Sec. 3, Eq. 9).
+struct JacobiOptions {
+  /// Factor on the displacement of Eq. 9.
+  double relaxation = 1;
+  RecordDetail detail = RecordDetail::vertices;
+};
+
+/// The paper's Jacobi step: direction of Eq. 9, asynchronous step-size control, energy guard. Keeps a
+/// reference to the problem.
+std::unique_ptr<Smoother> make_jacobi(const SmoothingProblem& problem, const JacobiOptions& options = {});
+
+/// Why a run ended.
+enum class StopReason : std::uint8_t {
+  iterations,  ///< the allowed number was done
+  gradient,    ///< the tangent gradient fell below tolerance times its start
+  energy,      ///< the energy hardly falls any more
+  movement,    ///< no vertex moves any more
+  stalled,     ///< no step along the direction lowers the energy
+  fixed,       ///< no vertex may move
+  cancelled,   ///< the caller said stop
+};
+/// One sentence for people.
+std::string_view to_string(StopReason reason);
+
+struct RunOptions {
+  unsigned iterations = 100;
+  /// Relative threshold of all three tests: gradient norm against its start, energy decrease against the
+  /// energy, largest move against the mean edge length. 0: only the iteration count stops the run.
+  double tolerance = 1e-6;
+};
+
+struct RunResult {
+  unsigned iterations = 0;
+  StopReason stopped = StopReason::iterations;
+  double seconds = 0;
+  StepTotals before, after;
+  double gradient_ratio = 0;  ///< last tangent gradient norm over the first
+  double energy_change = 0;   ///< last relative decrease of the energy
+  double relative_move = 0;   ///< last largest move over the mean edge length
+};
+
+/// Called after each accepted step, with the positions already moved; returning false stops the run.
+using StepObserver =
+    std::function<bool(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions)>;
+
+/// Steps a smoother until a stop reason holds. Never raises the energy and never turns a triangle over.
+RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec3> positions,
+              const RunOptions& options, const StepObserver& observer = {});
+
+}  // namespace isorelax

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "surface/normal_covariance.h"
+
+namespace isorelax {
+
+/// What the surface is like at a vertex, and so how many directions its tangent space has.
+enum class VertexClass : std::uint8_t {
+  smooth,    ///< two: the plane of the covariance's two smaller eigenvectors
+  ridge,     ///< one: along the crease, the smallest eigenvector
+  corner,    ///< none
+  boundary,  ///< on the border of the surface; what it may do is the boundary rule's matter
+};
+
+/// Name for people: "smooth", "ridge", "corner", "boundary".
+std::string_view to_string(VertexClass c);
+
+/// Thresholds of the classification, all in degrees. Method Sec. 4; defaults are those of face offsetting's
+/// own code where it has one.
+struct FeatureOptions {
+  /// A vertex whose normals spread like those of a crease with at least this dihedral turn is not smooth: the
+  /// spread is 2 atan(sqrt(l2 / l1)). 180 or more: no features at all.
+  double ridge_angle_deg = 30;
+  /// An edge whose two faces turn by more than this makes both its ends ridge.
+  double sharp_edge_deg = 65;
+  /// A vertex whose angles miss or exceed 2 pi by at least this is a corner.
+  double corner_defect_deg = 60;
+  /// A ridge or a boundary that turns by more than this in a vertex has a corner there.
+  double turn_deg = 45;
+
+  static constexpr FeatureOptions none() { return {180, 180, 1e9, 45}; }
+};
+
+/// The class of every vertex with the measurements that decided it, so that nothing about it is hidden.
+struct VertexClasses {
+  std::vector<VertexClass> classes;
+  std::vector<Vec3> eigenvalues;         ///< l1 >= l2 >= l3 of the normal covariance, length units squared
+  std::vector<double> spread_deg;        ///< 2 atan(sqrt(l2 / l1)), compared with ridge_angle_deg
+  std::vector<double> angle_defect_deg;  ///< 2 pi minus the sum of angles (pi at the boundary), compared with
+                                         ///< corner_defect_deg
+  std::vector<double>
+      sharpest_edge_deg;  ///< largest dihedral turn of the incident edges, compared with sharp_edge_deg
+  std::vector<double> turn_deg;  ///< turn of the ridge or boundary line in the vertex; 0 where there is none
+  /// Degrees between the measurement that decided and its threshold: how far the vertex is from another
+  /// class.
+  std::vector<double> margin_deg;
+};
+
+/// Classifies every vertex (paper Sec. 3, method Sec. 4). A vertex in no triangle is a corner.
+///
+/// Boundary vertices are `boundary`, or `corner` where the border turns by more than turn_deg, where a ridge
+/// runs into it, or where several borders meet. Elsewhere: a corner where the angles miss 2 pi by
+/// corner_defect_deg, where the third eigenvalue spreads like a crease too, where three or more creases meet,
+/// where one ends, or where it turns by more than turn_deg; otherwise a ridge where the spread reaches
+/// ridge_angle_deg or an edge is sharp; else smooth.
+VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                const Topology& topology, const FeatureOptions& options,
+                                unsigned threads = 0);
+
+}  // namespace isorelax
