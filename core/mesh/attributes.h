@@ -10,8 +10,10 @@ namespace isorelax {
 enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// Values attached to every vertex or every triangle: `width` numbers per element, element by element.
-/// Names with a meaning across formats: "normal" (3), "color" (3 or 4; uint8 0..255 or float 0..1),
-/// "texcoord" (2 or 3). Any other name is a format's own (a PLY property) and is kept as it stands.
+/// Names with a meaning across formats, at the widths given: "normal" (3), "color" (3 or 4; uint8 0..255 or
+/// float 0..1), "texcoord" (2 or 3), "weight" (1, of an OBJ vertex), "color_index" (1, of an OFF face),
+/// "stl_attribute" (1, uint16, of an STL facet). Any other name is a format's own (a PLY property) and is
+/// kept as it stands.
 struct Attribute {
   std::string name;
   ScalarType type = ScalarType::float64;
@@ -29,7 +31,7 @@ struct CornerAttribute {
 };
 
 /// A label per triangle from a small list: OBJ's g, o, usemtl and s. labels[face_label[t]]; 0xffffffff is
-/// "none".
+/// "none". The solids of an STL file are labels of the keyword "g".
 struct FaceLabels {
   std::string keyword;
   std::vector<std::string> labels;
@@ -38,13 +40,16 @@ struct FaceLabels {
 
 /// What a file said about its mesh beyond positions and triangles. Kept through load, smoothing and save.
 struct MeshAttributes {
+  /// Type that positions had in their file: a format with types writes them so again, where that loses
+  /// nothing.
+  ScalarType position_type = ScalarType::float64;
   std::vector<Attribute> vertex;
   std::vector<Attribute> face;
   std::vector<CornerAttribute> corner;
   std::vector<FaceLabels> face_labels;
   /// Text without the format's comment sign, in file order.
   std::vector<std::string> comments;
-  /// Format's own header lines worth keeping: OBJ "mtllib x.mtl", the name of an STL solid.
+  /// Format's own header lines, first word first: OBJ "mtllib x.mtl", PLY "obj_info ...", STL "solid NAME".
   std::vector<std::string> header_lines;
 };
 
