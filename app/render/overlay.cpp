@@ -1,0 +1,170 @@
+#include "render/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/canvas.h"
+
+namespace isorelax::render {
+namespace {
+
+/// Lengths in points.
+constexpr double kTextSize = 15;
+constexpr double kEdge = 18;  ///< free at the picture's edge
+constexpr double kPad = 10;   ///< between the panel's edge and what stands on it
+constexpr double kBarWidth = 16;
+constexpr double kTickLength = 4;
+constexpr double kLine = 22;  ///< from baseline to baseline
+/// Text smaller than this cannot be read, however small the picture.
+constexpr double kLeastTextPixels = 10.5;
+
+struct Inks {
+  Color text;
+  Color dim;
+  Color panel;
+};
+
+Inks inks_for(const Background& background) {
+  const Color middle = mix(background.top, background.bottom, 0.5);
+  const bool dark = luminance(middle) < 0.2;
+  const Color text = dark ? Color{232, 235, 240} : Color{30, 33, 39};
+  return {text, mix(middle, text, 0.62), middle};
+}
+
+/// Pixels per point for text and what stands beside it.
+double text_scale(const Scene& scene, PictureSize size) {
+  return std::max(pixels_per_point(scene, size), kLeastTextPixels / kTextSize);
+}
+
+/// Where everything of the legend goes, in pixels from the panel's upper left corner.
+class LegendLayout {
+ public:
+  LegendLayout(const Legend& legend, PictureSize size, double scale)
+      : legend_(legend), scale_(scale), font_(kTextSize * scale), title_(legend.title) {
+    if (!legend.unit.empty()) title_ += " (" + legend.unit + ")";
+    bar_height_ = std::round(std::clamp(0.42 * size.height, 40.0, 340 * scale));
+    const int most = std::clamp(static_cast<int>(bar_height_ / (2.2 * kTextSize * scale)), 2, 7);
+    ticks_ = legend_ticks(legend.coloring, most);
+    measure();
+  }
+
+  [[nodiscard]] int width() const { return static_cast<int>(std::ceil(width_)); }
+  [[nodiscard]] int height() const { return static_cast<int>(std::ceil(height_)); }
+
+  Image paint(const Inks& inks) {
+    Canvas canvas(width(), height());
+    canvas.fill(0, 0, width(), height(), inks.panel, 0.55);
+    double y = points(kPad) + font_.cap_height();
+    canvas.text(font_, title_, points(kPad), y, Align::left, inks.text);
+    y += points(0.5 * kLine);
+    if (!legend_.high_note.empty()) y = note(canvas, legend_.high_note, y, inks);
+    if (legend_.shows_above) y = swatch(canvas, kAboveRange, "above", y, inks);
+    y = bar(canvas, y + points(0.15 * kLine), inks);
+    if (legend_.shows_below) y = swatch(canvas, kBelowRange, "below", y, inks);
+    if (!legend_.low_note.empty()) y = note(canvas, legend_.low_note, y, inks);
+    if (legend_.shows_missing) swatch(canvas, kNoValue, "no value", y, inks);
+    return canvas.image();
+  }
+
+ private:
+  [[nodiscard]] double points(double length) const { return length * scale_; }
+
+  void measure() {
+    double labels = 0;
+    for (const Tick& tick : ticks_) labels = std::max(labels, font_.width(tick.text));
+    const int rows = legend_.shows_above + legend_.shows_below + legend_.shows_missing +
+                     !legend_.high_note.empty() + !legend_.low_note.empty();
+    if (legend_.shows_missing) labels = std::max(labels, font_.width("no value"));
+    if (legend_.shows_above || legend_.shows_below) labels = std::max(labels, font_.width("above"));
+    const double with_labels = points(kBarWidth + 2 * kTickLength) + labels;
+    width_ = std::max(font_.width(title_), with_labels) + points(2 * kPad);
+    height_ = points(2 * kPad + 1.15 * kLine + rows * kLine) + font_.cap_height() + bar_height_;
+  }
+
+  double note(Canvas& canvas, const std::string& text, double y, const Inks& inks) {
+    canvas.text(font_, text, points(kPad), y + 0.5 * (points(kLine) + font_.cap_height()), Align::left,
+                inks.dim);
+    return y + points(kLine);
+  }
+
+  double swatch(Canvas& canvas, Color color, const std::string& text, double y, const Inks& inks) {
+    const double x = points(kPad);
+    const double middle = y + 0.5 * points(kLine);
+    const double half = 0.3 * points(kLine);
+    canvas.fill(x, std::round(middle - half), x + std::round(points(kBarWidth)), std::round(middle + half),
+                color);
+    canvas.text(font_, text, x + points(kBarWidth + 2 * kTickLength), middle + 0.5 * font_.cap_height(),
+                Align::left, inks.dim);
+    return y + points(kLine);
+  }
+
+  double bar(Canvas& canvas, double y, const Inks& inks) {
+    const double x0 = std::round(points(kPad));
+    const double x1 = x0 + std::round(points(kBarWidth));
+    const double top = std::round(y);
+    const double line = std::max(1.0, std::round(scale_));
+    canvas.fill(x0 - line, top - line, x1 + line, top + bar_height_ + line, inks.dim);
+    for (double row = 0; row < bar_height_; ++row)
+      canvas.fill(x0, top + row, x1, top + row + 1,
+                  color_at(legend_.coloring, 1 - (row + 0.5) / bar_height_));
+    for (const Tick& tick : ticks_) {
+      const double at = top + (1 - tick.position) * bar_height_;
+      canvas.fill(x1, std::round(at - 0.5 * line), x1 + points(kTickLength),
+                  std::round(at - 0.5 * line) + line, inks.dim);
+      canvas.text(font_, tick.text, x1 + points(2 * kTickLength), at + 0.5 * font_.cap_height(), Align::left,
+                  inks.text);
+    }
+    return top + bar_height_ + points(0.5 * kLine);
+  }
+
+  const Legend& legend_;
+  double scale_;
+  Font font_;
+  std::string title_;
+  std::vector<Tick> ticks_;
+  double bar_height_ = 0;
+  double width_ = 0;
+  double height_ = 0;
+};
+
+Overlay make_caption(const std::string& caption, const Inks& inks, PictureSize size, double scale) {
+  Font font(kTextSize * scale);
+  const double pad = 0.5 * kPad * scale;
+  const int width = static_cast<int>(std::ceil(font.width(caption) + 2 * pad));
+  const int height = static_cast<int>(std::ceil(kLine * scale));
+  Canvas canvas(std::min(width, size.width), height);
+  canvas.fill(0, 0, width, height, inks.panel, 0.55);
+  canvas.text(font, caption, pad, 0.5 * (height + font.cap_height()), Align::left, inks.text);
+  const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
+  return {canvas.image(), edge, size.height - edge - height};
+}
+
+}  // namespace
+
+double pixels_per_point(const Scene& scene, PictureSize size) {
+  return scene.pixels_per_point > 0 ? scene.pixels_per_point : std::min(size.width, size.height) / 720.0;
+}
+
+std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
+  const Inks inks = inks_for(scene.background);
+  const double scale = text_scale(scene, size);
+  std::vector<Overlay> overlays;
+  if (scene.legend) {
+    LegendLayout layout(*scene.legend, size, scale);
+    const int edge = static_cast<int>(std::lround((kEdge - kPad) * scale));
+    overlays.push_back(
+        {layout.paint(inks), size.width - edge - layout.width(), (size.height - layout.height()) / 2});
+  }
+  if (!scene.caption.empty()) overlays.push_back(make_caption(scene.caption, inks, size, scale));
+  return overlays;
+}
+
+double legend_share(const Scene& scene, PictureSize size) {
+  if (!scene.legend || size.height <= 0) return 0;
+  const double scale = text_scale(scene, size);
+  const LegendLayout layout(*scene.legend, size, scale);
+  return (layout.width() + (kEdge - kPad) * scale) / size.height;
+}
+
+}  // namespace isorelax::render

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/topology.h"
+#include "mesh/triangle_mesh.h"
+#include "render/camera.h"
+#include "render/color.h"
+#include "render/colormap.h"
+#include "render/legend.h"
+
+namespace isorelax::render {
+
+/// Tells the renderer whether content changed since it last saw it: equal revisions mean equal content.
+/// kUnknownRevision is never equal: the content is taken afresh at each draw.
+using Revision = std::uint64_t;
+inline constexpr Revision kUnknownRevision = 0;
+
+/// A revision that no content in this process has had yet. Any thread.
+Revision next_revision();
+
+enum class Shading { flat, smooth };
+
+/// Triangle edges over the faces. They fade where triangles are only a few pixels wide.
+struct Wire {
+  bool shown = false;
+  Color color{16, 18, 22};
+  double opacity = 0.7;
+  double width = 1.1;  ///< in points
+};
+
+/// Marked edges (boundaries, features).
+struct EdgeStyle {
+  bool shown = true;
+  Color color{255, 255, 255};
+  double width = 2.2;  ///< in points
+};
+
+/// Bits per triangle for `SceneMesh::edge_marks`: bit k marks the edge opposite corner k.
+inline constexpr std::uint8_t kMarkedEdge[3] = {1, 2, 4};
+
+/// One mesh as it is to be drawn. Everything in spans belongs to the caller and must live through the draw.
+struct SceneMesh {
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
+  /// One number per triangle, NaN for none; empty: all in `plain_color`.
+  std::span<const double> face_values;
+  /// Marked edges, one byte per triangle (kMarkedEdge); empty: none.
+  std::span<const std::uint8_t> edge_marks;
+
+  Revision positions_revision = kUnknownRevision;
+  Revision triangles_revision = kUnknownRevision;  ///< of triangles and edge_marks
+  Revision values_revision = kUnknownRevision;     ///< of face_values
+
+  Coloring coloring;
+  Color plain_color{176, 184, 196};
+  Shading shading = Shading::flat;
+  Wire wire;
+  EdgeStyle marked_edges;
+  /// Triangles drawn in `highlight_color`, for a selection.
+  std::vector<Index> highlighted_faces;
+  Color highlight_color{255, 122, 61};
+};
+
+/// A round dot on a point of space, drawn over what hides it only slightly.
+struct Marker {
+  Vec3 position = Vec3::Zero();
+  Color color{255, 122, 61};
+  double diameter = 9;  ///< in points
+};
+
+/// All that a picture shows but the camera. Plain data, made anew for each draw at no cost.
+struct Scene {
+  std::vector<SceneMesh> meshes;
+  std::vector<Marker> markers;
+  Background background = kDarkBackground;
+  std::optional<Legend> legend;
+  std::string caption;  ///< one line at the lower left, UTF-8; empty: none
+  /// Pixels per point, the unit of line widths and text; 0: the picture's shorter side / 720.
+  double pixels_per_point = 0;
+};
+
+/// Box around all meshes of the scene.
+Bounds bounds_of(const Scene& scene);
+
+/// Marks for `SceneMesh::edge_marks`: the edges with one triangle.
+std::vector<std::uint8_t> mark_boundary_edges(const Topology& topology);
+
+}  // namespace isorelax::render
