@@ -7,14 +7,13 @@
 #include <numbers>
 #include <utility>
 
+#include "mesh/degenerate.h"
 #include "mesh/parallel.h"
 
 namespace isorelax {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-/// Area over squared longest edge at and under which a triangle counts as degenerate.
-constexpr double kDegenerateArea = 1e-14;
 
 constexpr std::array<std::pair<FaceMetric, std::string_view>, 8> kNames{{
     {FaceMetric::min_angle, "min-angle"},
@@ -63,7 +62,7 @@ TriangleMetrics measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
 
   TriangleMetrics m;
   m.area = 0.5 * twice_area;
-  m.degenerate = !(m.area > kDegenerateArea * long2);
+  m.degenerate = has_no_area(twice_area, long2);
   if (!(twice_area > 0)) {
     m.shape = std::numeric_limits<double>::infinity();
     m.aspect_ratio = m.shape;
