@@ -1,0 +1,17 @@
+#include "cli/command.h"
+
+namespace isorelax::cli {
+
+std::unique_ptr<Command> make_info_command();
+std::unique_ptr<Command> make_quality_command();
+std::unique_ptr<Command> make_generate_command();
+
+std::vector<std::unique_ptr<Command>> all_commands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(make_info_command());
+  commands.push_back(make_quality_command());
+  commands.push_back(make_generate_command());
+  return commands;
+}
+
+}  // namespace isorelax::cli

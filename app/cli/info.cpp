@@ -1,0 +1,123 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/json.h"
+#include "cli/mesh_input.h"
+#include "cli/table.h"
+#include "mesh/validation.h"
+
+namespace isorelax::cli {
+namespace {
+
+constexpr std::size_t kListed = 10;
+
+/// The first ids of a list, each by `text`, and how many more there are.
+template <class Item>
+std::string listed(const std::vector<Item>& items, const std::function<std::string(const Item&)>& text) {
+  std::string line = std::to_string(items.size());
+  for (std::size_t i = 0; i < std::min(items.size(), kListed); ++i)
+    line += (i == 0 ? ": " : ", ") + text(items[i]);
+  if (items.size() > kListed) line += " and " + std::to_string(items.size() - kListed) + " more";
+  return line;
+}
+
+std::string edge_text(const EdgeFinding& edge) {
+  std::string text = std::to_string(edge.a) + "-" + std::to_string(edge.b) + " (triangles";
+  for (const Index t : edge.triangles) text += " " + std::to_string(t);
+  return text + ")";
+}
+
+std::string id_text(const Index& id) {
+  return std::to_string(id);
+}
+
+std::string loop_text(const BoundaryLoop& loop) {
+  const std::size_t edges = loop.vertices.size() - (loop.closed ? 0 : 1);
+  return std::to_string(edges) + (loop.closed ? " edges" : " edges (open)") + " from vertex " +
+         std::to_string(loop.vertices.front());
+}
+
+std::string component_text(const ComponentFinding& component) {
+  return std::to_string(component.triangles) + " triangles";
+}
+
+std::string degenerate_text(const DegenerateFinding& finding) {
+  return std::to_string(finding.triangle) +
+         (finding.reason == DegenerateReason::zero_area ? " (zero area)" : " (repeated vertex)");
+}
+
+std::string duplicate_text(const DuplicateFinding& finding) {
+  return std::to_string(finding.triangle) + " (same as " + std::to_string(finding.first) + ")";
+}
+
+std::string orientation_text(const ValidationReport& report) {
+  if (report.oriented) return "consistent";
+  return report.orientable ? "inconsistent, can be made consistent"
+                           : "inconsistent, the surface has one side";
+}
+
+std::string report_text(const ValidationReport& report) {
+  Table table;
+  table.row("vertices", std::to_string(report.vertices));
+  table.row("triangles", std::to_string(report.triangles));
+  table.row("edges", std::to_string(report.edges));
+  table.row("components", listed<ComponentFinding>(report.components, component_text));
+  table.row("boundary loops", listed<BoundaryLoop>(report.boundary, loop_text));
+  table.row("Euler characteristic", std::to_string(report.euler_characteristic));
+  table.row("genus", report.genus ? std::to_string(*report.genus) : "undefined");
+  table.row("closed", report.closed ? "yes" : "no");
+  table.row("manifold", report.manifold() ? "yes" : "no");
+  table.row("orientation", orientation_text(report));
+  table.row("non-manifold edges", listed<EdgeFinding>(report.non_manifold_edges, edge_text));
+  table.row("non-manifold vertices", listed<Index>(report.non_manifold_vertices, id_text));
+  table.row("inconsistent edges", listed<EdgeFinding>(report.inconsistent_edges, edge_text));
+  table.row("degenerate triangles", listed<DegenerateFinding>(report.degenerate, degenerate_text));
+  table.row("duplicate triangles", listed<DuplicateFinding>(report.duplicates, duplicate_text));
+  table.row("isolated vertices", listed<Index>(report.isolated_vertices, id_text));
+  return table.text();
+}
+
+class InfoCommand : public Command {
+ public:
+  [[nodiscard]] std::string name() const override { return "info"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Tell what a mesh consists of and name every flaw in it";
+  }
+  [[nodiscard]] std::string notes() const override {
+    return "Vertices and triangles are numbered from 0 in file order. The text lists the first ten of each\n"
+           "kind of flaw, --json all of them.\n"
+           "  components            triangles that hang together by edges\n"
+           "  boundary loops        chains of edges with one triangle; open: cut off by a non-manifold edge\n"
+           "  genus                 handles; undefined where a part is non-manifold or has one side\n"
+           "  non-manifold edges    three or more triangles meet\n"
+           "  non-manifold vertices on such an edge, or several fans of triangles meet\n"
+           "  inconsistent edges    their two triangles run along them in the same direction\n"
+           "  degenerate triangles  a vertex twice, or area <= 1e-14 of the squared longest edge\n\n"
+           "Example:\n  isorelax info bunny.off --json";
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("FILE", file_, "Mesh: OFF, OBJ, PLY or STL")->required();
+    app.add_flag("--json", json_, "Print one JSON object");
+  }
+  int run(Console& console) override {
+    const ValidationReport report = validate(read_input(console, file_));
+    console.result(json_ ? json_text(to_json(report)) : report_text(report));
+    return kDone;
+  }
+
+ private:
+  std::string file_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_info_command() {
+  return std::make_unique<InfoCommand>();
+}
+
+}  // namespace isorelax::cli

@@ -1,0 +1,107 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "mesh/error.h"
+
+namespace isorelax::cli {
+namespace {
+
+constexpr const char* kDefaultCommand = "view";
+constexpr const char* kDescription =
+    "Isorelax makes the triangles of a surface mesh better by moving vertices and nothing else.";
+constexpr const char* kFooter =
+    "Without a command, files are opened in the editor: isorelax FILE... is isorelax view FILE...\n"
+    "isorelax COMMAND --help tells the options of a command and shows an example.\n\n"
+    "Exit status: 0 done; 1 a comparison or check that did not hold; 2 wrong usage; 3 input that\n"
+    "cannot be read or is not a usable mesh; 4 output that cannot be written.\n\n"
+    "Example:\n  isorelax generate random -o square.off && isorelax quality square.off";
+
+using Commands = std::vector<std::unique_ptr<Command>>;
+
+bool has_command(const Commands& commands, const std::string& name) {
+  return std::any_of(commands.begin(), commands.end(), [&](const auto& c) { return c->name() == name; });
+}
+
+/// Puts the default command in front of arguments that name none. A bare word that is neither a command nor
+/// a file is taken for a mistyped command.
+void add_default_command(std::vector<std::string>& arguments, const Commands& commands) {
+  static const std::vector<std::string> kOwnOptions = {"-h", "--help", "--version"};
+  if (!arguments.empty()) {
+    const std::string& first = arguments.front();
+    if (has_command(commands, first)) return;
+    if (std::find(kOwnOptions.begin(), kOwnOptions.end(), first) != kOwnOptions.end()) return;
+    const bool looks_like_file = first.find_first_of("./") != std::string::npos;
+    std::error_code ignored;
+    if (first.front() != '-' && !looks_like_file && !std::filesystem::exists(first, ignored)) {
+      throw UsageError(first + ": neither a command nor a file; isorelax --help lists the commands");
+    }
+  }
+  arguments.insert(arguments.begin(), kDefaultCommand);
+}
+
+/// Runs what the arguments ask for; every failure leaves as an exception.
+int parse_and_run(std::vector<std::string> arguments, Console& console) {
+  const Commands commands = all_commands();
+  CLI::App app(kDescription, "isorelax");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "isorelax " ISORELAX_VERSION);
+  app.require_subcommand(1);
+  int status = kDone;
+  for (const auto& command : commands) {
+    CLI::App* sub = app.add_subcommand(command->name(), command->summary());
+    sub->footer(command->notes());
+    command->declare(*sub);
+    sub->callback([&status, &console, &command] { status = command->run(console); });
+  }
+  try {
+    add_default_command(arguments, commands);
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    console.result(chosen.empty() ? app.help() : chosen.front()->help());
+  } catch (const CLI::CallForVersion& version) {
+    console.result(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    throw UsageError(std::string(error.what()) + " (see isorelax" + name + " --help)");
+  }
+  console.finish();
+  return status;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  // A reader that goes away shows as a failed write, not as a signal.
+  std::signal(SIGPIPE, SIG_IGN);
+  Console console;
+  try {
+    return parse_and_run(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), console);
+  } catch (const UsageError& error) {
+    console.error(error.what());
+    return kUsage;
+  } catch (const OutputError& error) {
+    console.error(error.what());
+    return kOutput;
+  } catch (const Error& error) {
+    console.error(error.what());
+    return kInput;
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory");
+    return kInput;
+  } catch (const std::exception& error) {
+    console.error(std::string("unexpected: ") + error.what());
+    return kInput;
+  }
+}
+
+}  // namespace isorelax::cli

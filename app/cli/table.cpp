@@ -1,0 +1,25 @@
+#include "cli/table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace isorelax::cli {
+
+std::string Table::text() const {
+  std::size_t width = 0;
+  for (const auto& [name, value] : rows_) width = std::max(width, name.size());
+  std::string text;
+  for (const auto& [name, value] : rows_) {
+    text += name + std::string(width - name.size() + 2, ' ') + value + "\n";
+  }
+  return text;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
+}  // namespace isorelax::cli
