@@ -9,6 +9,8 @@ target_compile_options(isorelax_build_flags INTERFACE
   -ffp-contract=off
   # g++ 12 sees an overlap in "text" + std::string that is not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Nobody reads errno after sqrt, nobody traps: without this, loops with a square root are not vectorised.
+  -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ISORELAX_WERROR}>:-Werror>)
 if(ISORELAX_SANITIZE)
   target_compile_options(isorelax_build_flags INTERFACE

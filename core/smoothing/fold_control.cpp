@@ -12,71 +12,124 @@ namespace {
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
 
-/// First root of c + b a + q a^2 in (0, infinity), c > 0; infinity if there is none.
-double first_positive_root(double c, double b, double q) {
-  const double discriminant = b * b - 4 * q * c;
+/// c + b a + q a^2: signed area along the move, over the old normal.
+struct AreaAlongMove {
+  double c, b, q;
+};
+
+/// Whether the polynomial may have a root in (0, 1 / safety]: false is certain, and the common case.
+bool may_fold(const AreaAlongMove& p, double safety) {
+  return !(p.c + std::min(p.b, 0.0) / safety + std::min(p.q, 0.0) / (safety * safety) > 0);
+}
+
+/// First root in (0, infinity), c > 0; infinity if there is none.
+double first_positive_root(const AreaAlongMove& p) {
+  const double discriminant = p.b * p.b - 4 * p.q * p.c;
   if (discriminant < 0) return INFINITY;
   // 2 c / (-b + sqrt(D)) is the smaller positive root for q > 0 and the positive one for q < 0, without
   // cancellation where b < 0.
-  const double denominator = -b + std::sqrt(discriminant);
-  return denominator > 0 ? 2 * c / denominator : INFINITY;
+  const double denominator = -p.b + std::sqrt(discriminant);
+  return denominator > 0 ? 2 * p.c / denominator : INFINITY;
+}
+
+double share(const AreaAlongMove& p, double safety) {
+  return std::min(1.0, safety * first_positive_root(p));
+}
+
+struct AreaBatch {
+  Lanes c, b, q;
+};
+
+ISORELAX_VECTOR_CLONES
+void area_along_move(const EdgeBatch& x, const EdgeBatch& y, AreaBatch& out) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const double ax = x.e1x.at[i], ay = x.e1y.at[i], az = x.e1z.at[i];
+    const double bx = x.e2x.at[i], by = x.e2y.at[i], bz = x.e2z.at[i];
+    const double px = y.e1x.at[i] - ax, py = y.e1y.at[i] - ay, pz = y.e1z.at[i] - az;
+    const double rx = y.e2x.at[i] - bx, ry = y.e2y.at[i] - by, rz = y.e2z.at[i] - bz;
+    const double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    out.c.at[i] = nx * nx + ny * ny + nz * nz;
+    out.b.at[i] = nx * (py * bz - pz * by + ay * rz - az * ry) +
+                  ny * (pz * bx - px * bz + az * rx - ax * rz) + nz * (px * by - py * bx + ax * ry - ay * rx);
+    out.q.at[i] = nx * (py * rz - pz * ry) + ny * (pz * rx - px * rz) + nz * (px * ry - py * rx);
+  }
 }
 
 }  // namespace
 
-double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& d, double safety) {
+double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y, double safety) {
   const Vec3 t1 = x[1] - x[0];
   const Vec3 t2 = x[2] - x[0];
-  const Vec3 d1 = d[1] - d[0];
-  const Vec3 d2 = d[2] - d[0];
+  const Vec3 d1 = y[1] - y[0] - t1;
+  const Vec3 d2 = y[2] - y[0] - t2;
   const Vec3 normal = t1.cross(t2);
-  const double c = normal.squaredNorm();
-  const double b = (d1.cross(t2) + t1.cross(d2)).dot(normal);
-  const double q = d1.cross(d2).dot(normal);
-  // A lower bound of the polynomial on [0, 1 / safety]: most triangles end here.
-  if (c + std::min(b, 0.0) / safety + std::min(q, 0.0) / (safety * safety) > 0) return 1;
-  return std::min(1.0, safety * first_positive_root(c, b, q));
+  const AreaAlongMove p{normal.squaredNorm(), (d1.cross(t2) + t1.cross(d2)).dot(normal),
+                        d1.cross(d2).dot(normal)};
+  return may_fold(p, safety) ? share(p, safety) : 1;
 }
 
 FoldControl::FoldControl(const SmoothingProblem& problem)
-    : problem_(problem), cuts_(block_count(problem.triangle_count())) {}
+    : problem_(problem), block_cuts_(block_count(problem.triangle_count())) {}
 
-void FoldControl::limit(std::span<const Vec3> positions, StepRecord& record) {
-  for (unsigned round = 0;; ++round) {
-    parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-      std::vector<Cut>& cuts = cuts_[begin / kBlockSize];
-      cuts.clear();
-      for (std::size_t t = begin; t < end; ++t) {
-        if (problem_.treated[t] == 0) continue;
-        const Triangle& v = problem_.triangles[t];
-        const double share = fold_free_share(
-            {positions[v[0]], positions[v[1]], positions[v[2]]},
-            {record.alpha[v[0]] * record.displacement[v[0]], record.alpha[v[1]] * record.displacement[v[1]],
-             record.alpha[v[2]] * record.displacement[v[2]]},
-            kSafety);
-        if (share < 1) cuts.push_back({static_cast<Index>(t), share});
-      }
-    });
-    // Every vertex takes the smallest share of its triangles; the triangles' shares were all found for the
-    // same moves.
-    std::vector<std::pair<Index, double>> vertex_share;
-    for (const auto& cuts : cuts_) {
-      for (const Cut& cut : cuts) {
-        for (const Index v : problem_.triangles[cut.triangle]) vertex_share.emplace_back(v, cut.share);
-      }
-    }
-    if (vertex_share.empty()) return;
-    ++record.fold_passes;
-    std::sort(vertex_share.begin(), vertex_share.end());
-    const bool give_up = round + 1 >= kMaxRounds;
-    for (std::size_t i = 0; i < vertex_share.size(); ++i) {
-      const auto [v, share] = vertex_share[i];
-      if (i > 0 && vertex_share[i - 1].first == v) continue;
-      if (record.displacement[v].isZero(0) || record.alpha[v] == 0) continue;
-      record.alpha[v] = give_up ? 0 : record.alpha[v] * share;
-      record.limits[v] |= kLimitFold;
-    }
+void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const {
+  EdgeBatch x;
+  EdgeBatch y;
+  AreaBatch areas;
+  x.load(trial.from(), problem_.triangles, ids);
+  y.load(trial.to(), problem_.triangles, ids);
+  area_along_move(x, y, areas);
+  for (unsigned i = 0; i < ids.count; ++i) {
+    const Index t = ids.at[i];
+    const AreaAlongMove p{areas.c.at[i], areas.b.at[i], areas.q.at[i]};
+    if (!may_fold(p, kSafety) || problem_.treated[t] == 0) continue;
+    const double limit = share(p, kSafety);
+    if (!(limit < 1)) continue;
+    for (const Index v : problem_.triangles[t]) cuts.push_back({v, limit});
   }
+}
+
+std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {
+  std::vector<Cut> cuts;
+  for (std::size_t first = 0; first < triangles.size(); first += kLanes) {
+    check(trial, BatchIds::of_list(triangles, first), cuts);
+  }
+  return cuts;
+}
+
+void FoldControl::limit(Trial& trial, StepRecord& record) {
+  parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Cut>& cuts = block_cuts_[begin / kBlockSize];
+    cuts.clear();
+    for (std::size_t first = begin; first < end; first += kLanes) {
+      check(trial, BatchIds::of_range(first, end), cuts);
+    }
+  });
+  std::vector<Cut> all;
+  for (const auto& cuts : block_cuts_) all.insert(all.end(), cuts.begin(), cuts.end());
+  shrink_until_free(trial, record, std::move(all));
+}
+
+std::vector<Index> FoldControl::limit(Trial& trial, StepRecord& record, std::span<const Index> triangles) {
+  return shrink_until_free(trial, record, check(trial, triangles));
+}
+
+std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts) {
+  std::vector<Index> changed;
+  for (unsigned round = 1; !cuts.empty(); ++round) {
+    ++record.fold_passes;
+    // Every vertex takes the smallest share of its triangles, all found for the same moves.
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+      return a.vertex != b.vertex ? a.vertex < b.vertex : a.share < b.share;
+    });
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      if (i > 0 && cuts[i - 1].vertex == cuts[i].vertex) continue;
+      trial.cut(record, cuts[i].vertex, round >= kMaxRounds ? 0.0 : cuts[i].share, kLimitFold);
+    }
+    const std::vector<Index> touched = trial.take_touched();
+    changed.insert(changed.end(), touched.begin(), touched.end());
+    cuts = check(trial, touched);
+  }
+  return changed;
 }
 
 }  // namespace isorelax

@@ -4,34 +4,43 @@
 #include <vector>
 
 #include "smoothing/problem.h"
-#include "smoothing/step_record.h"
+#include "smoothing/trial.h"
+#include "smoothing/triangle_batch.h"
 
 namespace isorelax {
 
-/// Largest share a in [0, 1] of the corner moves d that keeps triangle x safely on its side: along x + a d
-/// the signed area over the old normal is c + b a + q a^2 with c = N.N; the share is `safety` times its first
-/// positive root, or 1 where that is 1 or more (paper Sec. 3; method Sec. 5). Precondition: the triangle has
-/// area, 0 < safety < 1.
-double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& d, double safety);
+/// Largest share a in [0, 1] of the way from triangle x to triangle y that keeps it safely on its side: along
+/// x + a (y - x) the signed area over the old normal is c + b a + q a^2 with c = N.N; the share is `safety`
+/// times the first positive root, or 1 where that is 1 or more (paper Sec. 3; method Sec. 5). Precondition: x
+/// has area, 0 < safety < 1.
+double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y, double safety);
 
 /// The paper's asynchronous step-size control: scales each vertex' move by the smallest share of its
 /// triangles and repeats with the scaled moves until no triangle limits. After a bounded number of rounds
-/// what still folds is stopped (its vertices do not move), which always ends.
+/// what still folds is stopped (its vertices do not move), which always ends. Rounds after the first look
+/// only at triangles whose vertices were scaled.
 class FoldControl {
  public:
   /// Keeps a reference to the problem.
   explicit FoldControl(const SmoothingProblem& problem);
 
-  /// Lowers record.alpha, sets kLimitFold, counts record.fold_passes.
-  void limit(std::span<const Vec3> positions, StepRecord& record);
+  /// Checks all triangles of the trial.
+  void limit(Trial& trial, StepRecord& record);
+  /// Checks these triangles first, the only ones whose moves changed since the trial was last free of folds.
+  /// Returns all triangles whose moves it changed.
+  std::vector<Index> limit(Trial& trial, StepRecord& record, std::span<const Index> triangles);
 
  private:
   struct Cut {
-    Index triangle;
+    Index vertex;
     double share;
   };
+  void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;
+  [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
+  std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
+
   const SmoothingProblem& problem_;
-  std::vector<std::vector<Cut>> cuts_;  // per block: triangles that limit, in order
+  std::vector<std::vector<Cut>> block_cuts_;
 };
 
 }  // namespace isorelax

@@ -25,19 +25,26 @@ class JacobiSmoother : public Smoother {
         options_(options),
         here_(problem),
         there_(problem),
+        trial_(problem),
         fold_(problem),
         norm_partials_(block_count(problem.vertex_count())) {}
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     prepare(record);
     // A run asks for the positions that the guard of the step before evaluated: those sums are still at hand.
-    if (there_.is_at(positions)) std::swap(here_, there_);
-    if (!here_.is_at(positions)) here_.evaluate(positions);
+    if (there_.is_at(positions)) {
+      std::swap(here_, there_);
+    } else if (!here_.is_at(positions)) {
+      here_.evaluate(positions);
+      here_.mark(positions);
+    }
     record.before = here_.totals();
-    if (options_.detail == RecordDetail::vertices_and_triangles) here_.record_triangles(positions, record);
+    if (options_.detail == RecordDetail::vertices_and_triangles) record_triangles(record);
     propose(positions, record);
-    fold_.limit(positions, record);
-    guard_energy(positions, record);
+    trial_.start(positions, record);
+    fold_.limit(trial_, record);
+    guard_energy(record);
+    there_.mark(trial_.to());
     finish(record);
   }
 
@@ -59,7 +66,7 @@ class JacobiSmoother : public Smoother {
       double squares = 0;
       for (std::size_t i = begin; i < end; ++i) {
         const Index v = static_cast<Index>(i);
-        const VertexSums sums = here_.gather(positions, v);
+        const VertexSums sums = here_.gather(v);
         record.gradient[v] = sums.gradient;
         const Vec3 tangent = tangent_part(problem_, positions, v, sums);
         squares += tangent.squaredNorm();
@@ -77,47 +84,52 @@ class JacobiSmoother : public Smoother {
     record.before.gradient_norm = std::sqrt(squares);
   }
 
+  void record_triangles(StepRecord& record) const {
+    record.shape.assign(here_.shape().begin(), here_.shape().end());
+    record.area.assign(here_.area().begin(), here_.area().end());
+    record.energy.resize(problem_.triangle_count());
+    for (Index t = 0; t < problem_.triangle_count(); ++t) record.energy[t] = here_.energy(t);
+  }
+
   /// Accepts the step only if the energy does not rise: first cuts back the vertices around which it rose,
   /// then all.
-  void guard_energy(std::span<const Vec3> positions, StepRecord& record) {
-    for (unsigned round = 0;; ++round) {
-      move_trial(positions, record);
-      record.after = there_.evaluate(trial_);
-      if (record.after.energy <= record.before.energy) return;
+  void guard_energy(StepRecord& record) {
+    record.after = there_.evaluate(trial_.to());
+    for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
       ++record.energy_passes;
       if (round < kLocalGuardRounds) {
-        cut_where_energy_rose(positions, record);
-        fold_.limit(positions, record);
+        for (const Index v : vertices_where_energy_rose()) trial_.cut(record, v, 0.5, kLimitEnergy);
       } else {
         const bool give_up = round >= kLocalGuardRounds + kGlobalGuardRounds;
-        for (Index v = 0; v < problem_.vertex_count(); ++v) cut(record, v, give_up ? 0.0 : 0.5);
+        for (Index v = 0; v < problem_.vertex_count(); ++v)
+          trial_.cut(record, v, give_up ? 0.0 : 0.5, kLimitEnergy);
       }
+      std::vector<Index> changed = trial_.take_touched();
+      const std::vector<Index> unfolded = fold_.limit(trial_, record, changed);
+      changed.insert(changed.end(), unfolded.begin(), unfolded.end());
+      record.after = there_.update(trial_.to(), changed);
     }
   }
 
-  void move_trial(std::span<const Vec3> positions, const StepRecord& record) {
-    trial_.assign(positions.begin(), positions.end());
-    apply_step(record, trial_);
-  }
-
-  void cut_where_energy_rose(std::span<const Vec3> positions, StepRecord& record) {
-    here_.triangle_energies(positions, energy_here_);
-    there_.triangle_energies(trial_, energy_there_);
+  /// Vertices whose own triangles together got worse from here to there.
+  [[nodiscard]] std::vector<Index> vertices_where_energy_rose() {
+    const auto before = here_.powered();
+    const auto after = there_.powered();
+    std::vector<std::uint8_t> rose(problem_.vertex_count(), 0);
     parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Index v = static_cast<Index>(i);
+      for (std::size_t v = begin; v < end; ++v) {
         double change = 0;
-        for (const Corner c : problem_.topology.corners_of(v))
-          change += energy_there_[c / 3] - energy_here_[c / 3];
-        if (!(change <= 0)) cut(record, v, 0.5);
+        for (const Corner c : problem_.topology.corners_of(static_cast<Index>(v))) {
+          change += after[c / 3] - before[c / 3];
+        }
+        rose[v] = change <= 0 ? 0 : 1;
       }
     });
-  }
-
-  static void cut(StepRecord& record, Index v, double factor) {
-    if (record.alpha[v] == 0 || record.displacement[v].isZero(0)) return;
-    record.alpha[v] *= factor;
-    record.limits[v] |= kLimitEnergy;
+    std::vector<Index> vertices;
+    for (Index v = 0; v < problem_.vertex_count(); ++v) {
+      if (rose[v] != 0) vertices.push_back(v);
+    }
+    return vertices;
   }
 
   void finish(StepRecord& record) const {
@@ -134,9 +146,9 @@ class JacobiSmoother : public Smoother {
   const SmoothingProblem& problem_;
   JacobiOptions options_;
   Objective here_, there_;  // at the step's positions, and at the last trial
+  Trial trial_;
   FoldControl fold_;
-  std::vector<Vec3> trial_;
-  std::vector<double> norm_partials_, energy_here_, energy_there_;
+  std::vector<double> norm_partials_;
 };
 
 }  // namespace

@@ -9,85 +9,162 @@
 namespace isorelax {
 namespace {
 
-/// E^p and its derivative with respect to E.
-struct Power {
-  double value, derivative;
+/// Reference triangles of one batch.
+struct ReferenceBatch {
+  Lanes cot0, cot1, cot2, inverse_d1;
+
+  void load(const ReferenceMesh& reference, const BatchIds& ids) {
+    for (unsigned i = 0; i < kLanes; ++i) {
+      const ReferenceTriangle r = reference[ids.at[i]];
+      cot0.at[i] = r.cot[0];
+      cot1.at[i] = r.cot[1];
+      cot2.at[i] = r.cot[2];
+      inverse_d1.at[i] = 1 / r.d1;
+    }
+  }
 };
-Power power(double energy, double exponent) {
-  if (exponent == 1) return {energy, 1};
-  if (exponent == 2) return {energy * energy, 2 * energy};
-  const double below = std::pow(energy, exponent - 1);
-  return {below * energy, exponent * below};
+
+/// Everything that is kept about the triangles of one batch.
+struct EnergyBatch {
+  Lanes shape, area, powered;
+  Lanes g0x, g0y, g0z, g1x, g1y, g1z;
+  Lanes mx, my, mz;
+  Lanes s;  // 2 w_s / D2 times the derivative of E^p
+};
+
+/// E^p and its derivative for exponents other than 1 and 2.
+[[gnu::noinline]] void general_power(double exponent, EnergyWeights w, const EnergyBatch& b,
+                                     Lanes& derivative) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    derivative.at[i] = std::pow(w.shape * b.shape.at[i] + w.area * b.area.at[i], exponent - 1);
+  }
+}
+
+/// The formulas of `triangle_energy` for eight triangles at once, and Eq. 6 at corners 0 and 1.
+template <bool kEquilateral>
+[[gnu::always_inline]] inline void energies(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w,
+                                            double exponent, EnergyBatch& out) {
+  Lanes t;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
+    const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
+    const double cx = bx - ax, cy = by - ay, cz = bz - az;
+    const double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    const double d2 = std::sqrt(nx * nx + ny * ny + nz * nz);
+    const double inverse = 1 / d2;
+    const double aa = ax * ax + ay * ay + az * az;
+    const double bb = bx * bx + by * by + bz * bz;
+    const double cc = cx * cx + cy * cy + cz * cz;
+    const double weighted = kEquilateral ? kEquilateralCot * (aa + bb + cc)
+                                         : r.cot0.at[i] * cc + r.cot1.at[i] * bb + r.cot2.at[i] * aa;
+    const double shape = weighted * inverse;
+    const double root = std::sqrt(d2 * r.inverse_d1.at[i]);
+    const double inverse_root = 1 / root;
+    const double scale = 1 / std::sqrt(d2);
+    out.shape.at[i] = shape;
+    out.area.at[i] = root + inverse_root;
+    out.s.at[i] = 2 * w.shape * inverse;
+    // t / D2: what multiplies N x l_i.
+    t.at[i] = inverse * inverse * (0.5 * w.area * (root - inverse_root) - w.shape * shape);
+    out.mx.at[i] = nx * scale;
+    out.my.at[i] = ny * scale;
+    out.mz.at[i] = nz * scale;
+    // N / sqrt(D2) is kept; N itself is wanted once more below.
+    out.g0x.at[i] = nx;
+    out.g0y.at[i] = ny;
+    out.g0z.at[i] = nz;
+  }
+  Lanes derivative;
+  if (exponent != 1 && exponent != 2) general_power(exponent, w, out, derivative);
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const double energy = w.shape * out.shape.at[i] + w.area * out.area.at[i];
+    const double below = exponent == 1 ? 1 : (exponent == 2 ? energy : derivative.at[i]);
+    out.powered.at[i] = below * energy;
+    const double factor = exponent * below;
+    const double s = factor * out.s.at[i];
+    const double tt = factor * t.at[i];
+    out.s.at[i] = s;
+    const double nx = out.g0x.at[i], ny = out.g0y.at[i], nz = out.g0z.at[i];
+    const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
+    const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
+    const double cx = bx - ax, cy = by - ay, cz = bz - az;
+    // l_0 = c, l_1 = -b, l_2 = a;  g_i = s_{i+} l_{i+} - s_{i-} l_{i-} + t n x l_i
+    const double s0 = s * (kEquilateral ? kEquilateralCot : r.cot0.at[i]);
+    const double s1 = s * (kEquilateral ? kEquilateralCot : r.cot1.at[i]);
+    const double s2 = s * (kEquilateral ? kEquilateralCot : r.cot2.at[i]);
+    out.g0x.at[i] = tt * (ny * cz - nz * cy) - s1 * bx - s2 * ax;
+    out.g0y.at[i] = tt * (nz * cx - nx * cz) - s1 * by - s2 * ay;
+    out.g0z.at[i] = tt * (nx * cy - ny * cx) - s1 * bz - s2 * az;
+    out.g1x.at[i] = s2 * ax - s0 * cx - tt * (ny * bz - nz * by);
+    out.g1y.at[i] = s2 * ay - s0 * cy - tt * (nz * bx - nx * bz);
+    out.g1z.at[i] = s2 * az - s0 * cz - tt * (nx * by - ny * bx);
+  }
+}
+
+ISORELAX_VECTOR_CLONES
+void equilateral_batch(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w, double exponent,
+                       EnergyBatch& out) {
+  energies<true>(e, r, w, exponent, out);
+}
+
+ISORELAX_VECTOR_CLONES
+void general_batch(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w, double exponent,
+                   EnergyBatch& out) {
+  energies<false>(e, r, w, exponent, out);
 }
 
 }  // namespace
 
-/// Everything about one triangle at one set of positions.
-struct Objective::Terms {
-  Vec3 normal;  // N, length D2
-  double d2;
-  double shape, area, energy, s, t;
-};
+Objective::Objective(const SmoothingProblem& problem)
+    : problem_(&problem),
+      states_(problem.triangle_count()),
+      corner_stiffness_(problem.reference.is_equilateral() ? 0 : problem.triangle_count()),
+      shape_(problem.triangle_count()),
+      area_(problem.triangle_count()),
+      powered_(problem.triangle_count()),
+      partials_(block_count(problem.triangle_count())) {}
 
-Objective::Objective(const SmoothingProblem& problem) : problem_(&problem) {
-  states_.resize(problem.triangle_count());
-  partials_.resize(block_count(problem.triangle_count()));
-}
-
-template <bool kEquilateral>
-Objective::Terms Objective::terms(std::span<const Vec3> positions, Index t) const {
-  const Triangle& v = problem_->triangles[t];
-  const Vec3& a = positions[v[0]];
-  const Vec3 e1 = positions[v[1]] - a;
-  const Vec3 e2 = positions[v[2]] - a;
-  const Vec3 e0 = e2 - e1;
-  Terms r;
-  r.normal = e1.cross(e2);
-  r.d2 = std::sqrt(r.normal.squaredNorm());
-  if constexpr (kEquilateral) {
-    const double squares = e0.squaredNorm() + e1.squaredNorm() + e2.squaredNorm();
-    const EquilateralEnergy e =
-        equilateral_energy(squares, r.d2, 1 / problem_->reference.d1(t), problem_->weights);
-    r.shape = e.shape, r.area = e.area, r.energy = e.energy, r.s = e.s, r.t = e.t;
-  } else {
-    const TriangleEnergy e = triangle_energy({e0.squaredNorm(), e2.squaredNorm(), e1.squaredNorm()}, r.d2,
-                                             problem_->reference[t], problem_->weights);
-    r.shape = e.shape, r.area = e.area, r.energy = e.energy, r.t = e.t;
-    r.s = 2 * problem_->weights.shape / r.d2;  // times cot(alpha_k) at each corner
-  }
-  return r;
-}
-
-template <bool kEquilateral>
-void Objective::evaluate_block(std::span<const Vec3> positions, std::size_t begin, std::size_t end,
-                               StepTotals& partial) {
-  partial = {};
-  for (std::size_t i = begin; i < end; ++i) {
-    const Index t = static_cast<Index>(i);
-    if (problem_->treated[t] == 0) {
-      states_[t] = {};
-      continue;
-    }
-    const Terms r = terms<kEquilateral>(positions, t);
-    const Power p = power(r.energy, problem_->exponent);
-    partial.energy += p.value;
-    partial.shape += r.shape;
-    partial.area += r.area;
-    partial.worst_energy = std::max(partial.worst_energy, r.energy);
-    const double root = std::sqrt(r.d2);
-    const double scale = 1 / root;
-    states_[t] = {r.normal.x() * scale, r.normal.y() * scale, r.normal.z() * scale, p.derivative * r.s,
-                  p.derivative * r.t * scale};
+void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids) {
+  EdgeBatch edges;
+  ReferenceBatch reference;
+  EnergyBatch out;
+  edges.load(positions, problem_->triangles, ids);
+  reference.load(problem_->reference, ids);
+  problem_->reference.is_equilateral()
+      ? equilateral_batch(edges, reference, problem_->weights, problem_->exponent, out)
+      : general_batch(edges, reference, problem_->weights, problem_->exponent, out);
+  for (unsigned i = 0; i < ids.count; ++i) {
+    const Index t = ids.at[i];
+    if (problem_->treated[t] == 0) continue;  // the arrays hold zeros there from the start
+    shape_[t] = out.shape.at[i];
+    area_[t] = out.area.at[i];
+    powered_[t] = out.powered.at[i];
+    states_[t] = {
+        out.g0x.at[i], out.g0y.at[i], out.g0z.at[i], out.g1x.at[i], out.g1y.at[i],
+        out.g1z.at[i], out.mx.at[i],  out.my.at[i],  out.mz.at[i],  2 * kEquilateralCot * out.s.at[i]};
+    if (corner_stiffness_.empty()) continue;
+    const double s = out.s.at[i];
+    corner_stiffness_[t] = {s * (reference.cot1.at[i] + reference.cot2.at[i]),
+                            s * (reference.cot2.at[i] + reference.cot0.at[i]),
+                            s * (reference.cot0.at[i] + reference.cot1.at[i])};
   }
 }
 
-StepTotals Objective::evaluate(std::span<const Vec3> positions) {
-  const bool equilateral = problem_->reference.is_equilateral();
-  parallel_for_blocks(problem_->triangle_count(), problem_->threads, [&](std::size_t begin, std::size_t end) {
-    StepTotals& partial = partials_[begin / kBlockSize];
-    equilateral ? evaluate_block<true>(positions, begin, end, partial)
-                : evaluate_block<false>(positions, begin, end, partial);
-  });
+void Objective::sum_block(std::size_t block) {
+  const std::size_t end = std::min<std::size_t>(problem_->triangle_count(), (block + 1) * kBlockSize);
+  StepTotals sum;
+  double worst = 0;
+  for (std::size_t t = block * kBlockSize; t < end; ++t) {
+    sum.energy += powered_[t];
+    sum.shape += shape_[t];
+    sum.area += area_[t];
+    worst = std::max(worst, problem_->weights.shape * shape_[t] + problem_->weights.area * area_[t]);
+  }
+  sum.worst_energy = worst;
+  partials_[block] = sum;
+}
+
+void Objective::sum_blocks() {
   totals_ = {};
   for (const StepTotals& partial : partials_) {
     totals_.energy += partial.energy;
@@ -95,7 +172,31 @@ StepTotals Objective::evaluate(std::span<const Vec3> positions) {
     totals_.area += partial.area;
     totals_.worst_energy = std::max(totals_.worst_energy, partial.worst_energy);
   }
-  at_.assign(positions.begin(), positions.end());
+}
+
+const StepTotals& Objective::evaluate(std::span<const Vec3> positions) {
+  at_.clear();
+  parallel_for_blocks(problem_->triangle_count(), problem_->threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; first += kLanes) {
+      evaluate_batch(positions, BatchIds::of_range(first, end));
+    }
+    sum_block(begin / kBlockSize);
+  });
+  sum_blocks();
+  return totals_;
+}
+
+const StepTotals& Objective::update(std::span<const Vec3> positions, std::span<const Index> triangles) {
+  at_.clear();
+  for (std::size_t first = 0; first < triangles.size(); first += kLanes) {
+    evaluate_batch(positions, BatchIds::of_list(triangles, first));
+  }
+  std::vector<std::uint8_t> dirty(partials_.size(), 0);
+  for (const Index t : triangles) dirty[t / kBlockSize] = 1;
+  for (std::size_t block = 0; block < dirty.size(); ++block) {
+    if (dirty[block] != 0) sum_block(block);
+  }
+  sum_blocks();
   return totals_;
 }
 
@@ -105,73 +206,32 @@ bool Objective::is_at(std::span<const Vec3> positions) const {
 }
 
 template <bool kEquilateral, bool kCovariance>
-VertexSums Objective::gather_as(std::span<const Vec3> positions, Index vertex) const {
+VertexSums Objective::gather_as(Index vertex) const {
   VertexSums sums;
-  const Vec3 x = positions[vertex];
+  double gx = 0, gy = 0, gz = 0;
   for (const Corner c : problem_->topology.corners_of(vertex)) {
     const Index t = c / 3;
     const unsigned i = c - 3 * t;
-    const Triangle& v = problem_->triangles[t];
-    const Vec3& a = positions[v[next(i)]];
-    const Vec3& b = positions[v[previous(i)]];
     const TriangleState& state = states_[t];
-    const Vec3 normal(state.mx, state.my, state.mz);
-    const Vec3 opposite = b - a;  // l_i
-    if constexpr (kEquilateral) {
-      sums.gradient += state.s * (2 * x - a - b) + state.t * normal.cross(opposite);
-      sums.stiffness += 2 * state.s;
+    if (i == 0) {
+      gx += state.g0x, gy += state.g0y, gz += state.g0z;
+    } else if (i == 1) {
+      gx += state.g1x, gy += state.g1y, gz += state.g1z;
     } else {
-      const ReferenceTriangle reference = problem_->reference[t];
-      const double s_next = state.s * reference.cot[next(i)];
-      const double s_previous = state.s * reference.cot[previous(i)];
-      sums.gradient += s_next * (x - b) - s_previous * (a - x) + state.t * normal.cross(opposite);
-      sums.stiffness += s_next + s_previous;
+      gx -= state.g0x + state.g1x, gy -= state.g0y + state.g1y, gz -= state.g0z + state.g1z;
     }
+    sums.stiffness += kEquilateral ? state.stiffness : corner_stiffness_[t][i];
     if constexpr (kCovariance) sums.covariance.add_outer(state.mx, state.my, state.mz);
   }
+  sums.gradient = {gx, gy, gz};
   return sums;
 }
 
-VertexSums Objective::gather(std::span<const Vec3> positions, Index vertex) const {
+VertexSums Objective::gather(Index vertex) const {
   if (problem_->reference.is_equilateral()) {
-    return problem_->plane_normal ? gather_as<true, false>(positions, vertex)
-                                  : gather_as<true, true>(positions, vertex);
+    return problem_->plane_normal ? gather_as<true, false>(vertex) : gather_as<true, true>(vertex);
   }
-  return problem_->plane_normal ? gather_as<false, false>(positions, vertex)
-                                : gather_as<false, true>(positions, vertex);
-}
-
-void Objective::triangle_energies(std::span<const Vec3> positions, std::vector<double>& powered) const {
-  powered.resize(problem_->triangle_count());
-  parallel_for_blocks(powered.size(), problem_->threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index t = static_cast<Index>(i);
-      powered[t] = 0;
-      if (problem_->treated[t] == 0) continue;
-      const double energy = problem_->reference.is_equilateral() ? terms<true>(positions, t).energy
-                                                                 : terms<false>(positions, t).energy;
-      powered[t] = power(energy, problem_->exponent).value;
-    }
-  });
-}
-
-void Objective::record_triangles(std::span<const Vec3> positions, StepRecord& record) const {
-  const std::size_t count = problem_->triangle_count();
-  record.shape.resize(count);
-  record.area.resize(count);
-  record.energy.resize(count);
-  parallel_for_blocks(count, problem_->threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index t = static_cast<Index>(i);
-      Terms r{};
-      if (problem_->treated[t] != 0) {
-        r = problem_->reference.is_equilateral() ? terms<true>(positions, t) : terms<false>(positions, t);
-      }
-      record.shape[t] = r.shape;
-      record.area[t] = r.area;
-      record.energy[t] = r.energy;
-    }
-  });
+  return problem_->plane_normal ? gather_as<false, false>(vertex) : gather_as<false, true>(vertex);
 }
 
 }  // namespace isorelax

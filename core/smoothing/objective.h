@@ -5,6 +5,7 @@
 
 #include "smoothing/problem.h"
 #include "smoothing/step_record.h"
+#include "smoothing/triangle_batch.h"
 
 namespace isorelax {
 
@@ -17,47 +18,56 @@ struct VertexSums {
 
 /// Value and gradient of sum E^p over the treated triangles at one set of positions.
 ///
-/// Two passes: `evaluate` runs once over the triangles and keeps five numbers of each, `gather` sums them
+/// Two passes: `evaluate` runs once over the triangles and keeps a few numbers of each, `gather` sums them
 /// around a vertex in corner order. No vertex is written by two threads and every sum has one order: results
 /// do not depend on the number of threads.
 class Objective {
  public:
-  /// Keeps a reference to the problem.
+  /// Keeps a pointer to the problem.
   explicit Objective(const SmoothingProblem& problem);
 
-  /// Totals at these positions (gradient_norm left 0). Keeps what `gather` needs.
-  StepTotals evaluate(std::span<const Vec3> positions);
+  /// Evaluates all triangles at these positions and returns the totals (gradient_norm left 0).
+  const StepTotals& evaluate(std::span<const Vec3> positions);
+  /// Evaluates again only these triangles, whose vertices alone have moved since: same totals as `evaluate`,
+  /// to the bit.
+  const StepTotals& update(std::span<const Vec3> positions, std::span<const Index> triangles);
 
-  /// Whether the last `evaluate` was at exactly these positions.
+  /// Remembers that the numbers held belong to these positions.
+  void mark(std::span<const Vec3> positions) { at_.assign(positions.begin(), positions.end()); }
+  /// Whether the numbers held were marked as belonging to exactly these positions.
   [[nodiscard]] bool is_at(std::span<const Vec3> positions) const;
   [[nodiscard]] const StepTotals& totals() const { return totals_; }
 
-  /// Sums around a vertex; `positions` are those of the last `evaluate`.
-  [[nodiscard]] VertexSums gather(std::span<const Vec3> positions, Index vertex) const;
+  /// Sums around a vertex at the positions of the last evaluation.
+  [[nodiscard]] VertexSums gather(Index vertex) const;
 
-  /// E^p of every triangle at these positions, 0 for untreated ones.
-  void triangle_energies(std::span<const Vec3> positions, std::vector<double>& powered) const;
-
-  /// K, S and E of every triangle into the record (0 for untreated ones).
-  void record_triangles(std::span<const Vec3> positions, StepRecord& record) const;
+  /// Per triangle, at the last evaluation; 0 for untreated triangles.
+  [[nodiscard]] std::span<const double> shape() const { return shape_; }
+  [[nodiscard]] std::span<const double> area() const { return area_; }
+  /// E^p: what is summed up.
+  [[nodiscard]] std::span<const double> powered() const { return powered_; }
+  /// E of one triangle.
+  [[nodiscard]] double energy(Index t) const {
+    return problem_->weights.shape * shape_[t] + problem_->weights.area * area_[t];
+  }
 
  private:
-  /// N / sqrt(D2), and s and t of the gradient times the derivative of E^p, t times sqrt(D2) / D2.
+  /// Gradients of E^p at corners 0 and 1 (corner 2 has minus their sum), N / sqrt(D2), and s_{i+} + s_{i-}
+  /// times the derivative of E^p where it is the same at all corners.
   struct TriangleState {
-    double mx, my, mz, s, t;
+    double g0x, g0y, g0z, g1x, g1y, g1z, mx, my, mz, stiffness;
   };
 
-  struct Terms;
-  template <bool kEquilateral>
-  [[nodiscard]] Terms terms(std::span<const Vec3> positions, Index t) const;
-  template <bool kEquilateral>
-  void evaluate_block(std::span<const Vec3> positions, std::size_t begin, std::size_t end,
-                      StepTotals& partial);
+  void evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids);
+  void sum_block(std::size_t block);
+  void sum_blocks();
   template <bool kEquilateral, bool kCovariance>
-  [[nodiscard]] VertexSums gather_as(std::span<const Vec3> positions, Index vertex) const;
+  [[nodiscard]] VertexSums gather_as(Index vertex) const;
 
   const SmoothingProblem* problem_;  // a pointer, so that two objectives can be swapped
   std::vector<TriangleState> states_;
+  std::vector<std::array<double, 3>> corner_stiffness_;  // where the references differ from corner to corner
+  std::vector<double> shape_, area_, powered_;
   std::vector<Vec3> at_;
   std::vector<StepTotals> partials_;
   StepTotals totals_;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "smoothing/problem.h"
+#include "smoothing/step_record.h"
+
+namespace isorelax {
+
+/// Where a record's accepted moves lead: x + alpha * displacement for every vertex, kept up to date while
+/// alphas are cut back, together with the triangles that this touched.
+class Trial {
+ public:
+  /// Keeps a reference to the problem.
+  explicit Trial(const SmoothingProblem& problem) : problem_(problem), stamp_(problem.triangle_count(), 0) {}
+
+  /// Starts from the record's moves.
+  void start(std::span<const Vec3> from, const StepRecord& record);
+
+  /// Multiplies a vertex' alpha by `factor`, sets `why` among its limits and moves the trial. No effect, and
+  /// false, for a vertex that does not move.
+  bool cut(StepRecord& record, Index vertex, double factor, Limit why);
+
+  [[nodiscard]] std::span<const Vec3> from() const { return from_; }
+  [[nodiscard]] std::span<const Vec3> to() const { return to_; }
+
+  /// Triangles at the vertices cut since the last call, each once, in the order they were touched.
+  std::vector<Index> take_touched();
+
+ private:
+  const SmoothingProblem& problem_;
+  std::span<const Vec3> from_;
+  std::vector<Vec3> to_;
+  std::vector<std::uint32_t> stamp_;  // per triangle: round in which it was last noted
+  std::uint32_t round_ = 1;
+  std::vector<Index> touched_;
+};
+
+}  // namespace isorelax
