@@ -40,6 +40,8 @@ class ReferenceMesh {
 
   [[nodiscard]] Index triangle_count() const { return count_; }
   [[nodiscard]] bool is_equilateral() const { return cot_.empty(); }
+  /// One equilateral reference serves all triangles.
+  [[nodiscard]] bool is_uniform() const { return d1_.size() == 1 && is_equilateral(); }
   /// Twice the area of triangle t's reference.
   [[nodiscard]] double d1(Index t) const { return d1_.size() == 1 ? d1_[0] : d1_[t]; }
   [[nodiscard]] ReferenceTriangle operator[](Index t) const {

@@ -64,17 +64,23 @@ class JacobiSmoother : public Smoother {
     const double small = kConvergedMove * problem_.mean_edge_length;
     parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
       double squares = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Index v = static_cast<Index>(i);
-        const VertexSums sums = here_.gather(v);
-        record.gradient[v] = sums.gradient;
-        const Vec3 tangent = tangent_part(problem_, positions, v, sums);
-        squares += tangent.squaredNorm();
-        Vec3& d = record.displacement[v];
-        d = sums.stiffness > 0 ? Vec3(-options_.relaxation / sums.stiffness * tangent) : Vec3::Zero();
-        if (problem_.mobility[v] != Mobility::none && d.squaredNorm() <= small * small) {
-          d.setZero();
-          record.limits[v] |= kLimitConverged;
+      std::array<VertexSums, kLanes> sums;
+      for (std::size_t first = begin; first < end; first += kLanes) {
+        const std::size_t count = std::min<std::size_t>(kLanes, end - first);
+        for (std::size_t i = 0; i < count; ++i) sums[i] = here_.gather(static_cast<Index>(first + i));
+        const auto tangents =
+            tangent_parts(problem_, positions, static_cast<Index>(first), std::span(sums).first(count));
+        for (std::size_t i = 0; i < count; ++i) {
+          const Index v = static_cast<Index>(first + i);
+          squares += tangents[i].squaredNorm();
+          record.gradient[v] = sums[i].gradient;
+          Vec3& d = record.displacement[v];
+          d = sums[i].stiffness > 0 ? Vec3(-options_.relaxation / sums[i].stiffness * tangents[i])
+                                    : Vec3::Zero();
+          if (problem_.mobility[v] != Mobility::none && d.squaredNorm() <= small * small) {
+            d.setZero();
+            record.limits[v] |= kLimitConverged;
+          }
         }
       }
       norm_partials_[begin / kBlockSize] = squares;

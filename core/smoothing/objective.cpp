@@ -9,21 +9,6 @@
 namespace isorelax {
 namespace {
 
-/// Reference triangles of one batch.
-struct ReferenceBatch {
-  Lanes cot0, cot1, cot2, inverse_d1;
-
-  void load(const ReferenceMesh& reference, const BatchIds& ids) {
-    for (unsigned i = 0; i < kLanes; ++i) {
-      const ReferenceTriangle r = reference[ids.at[i]];
-      cot0.at[i] = r.cot[0];
-      cot1.at[i] = r.cot[1];
-      cot2.at[i] = r.cot[2];
-      inverse_d1.at[i] = 1 / r.d1;
-    }
-  }
-};
-
 /// Everything that is kept about the triangles of one batch.
 struct EnergyBatch {
   Lanes shape, area, powered;
@@ -32,19 +17,11 @@ struct EnergyBatch {
   Lanes s;  // 2 w_s / D2 times the derivative of E^p
 };
 
-/// E^p and its derivative for exponents other than 1 and 2.
-[[gnu::noinline]] void general_power(double exponent, EnergyWeights w, const EnergyBatch& b,
-                                     Lanes& derivative) {
-  for (unsigned i = 0; i < kLanes; ++i) {
-    derivative.at[i] = std::pow(w.shape * b.shape.at[i] + w.area * b.area.at[i], exponent - 1);
-  }
-}
-
-/// The formulas of `triangle_energy` for eight triangles at once, and Eq. 6 at corners 0 and 1.
+/// First half of the formulas of `triangle_energy`, for eight triangles at once: values, N in g0, and in `t`
+/// the t of Eq. 6 over D2.
 template <bool kEquilateral>
-[[gnu::always_inline]] inline void energies(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w,
-                                            double exponent, EnergyBatch& out) {
-  Lanes t;
+[[gnu::always_inline]] inline void values(const EdgeBatch& __restrict e, const ReferenceBatch& __restrict r,
+                                          EnergyWeights w, EnergyBatch& __restrict out, Lanes& __restrict t) {
   for (unsigned i = 0; i < kLanes; ++i) {
     const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
     const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
@@ -60,38 +37,48 @@ template <bool kEquilateral>
     const double shape = weighted * inverse;
     const double root = std::sqrt(d2 * r.inverse_d1.at[i]);
     const double inverse_root = 1 / root;
-    const double scale = 1 / std::sqrt(d2);
+    const double scale = std::sqrt(inverse);
     out.shape.at[i] = shape;
     out.area.at[i] = root + inverse_root;
     out.s.at[i] = 2 * w.shape * inverse;
-    // t / D2: what multiplies N x l_i.
     t.at[i] = inverse * inverse * (0.5 * w.area * (root - inverse_root) - w.shape * shape);
     out.mx.at[i] = nx * scale;
     out.my.at[i] = ny * scale;
     out.mz.at[i] = nz * scale;
-    // N / sqrt(D2) is kept; N itself is wanted once more below.
     out.g0x.at[i] = nx;
     out.g0y.at[i] = ny;
     out.g0z.at[i] = nz;
   }
-  Lanes derivative;
-  if (exponent != 1 && exponent != 2) general_power(exponent, w, out, derivative);
+}
+
+/// E^(p - 1) for every lane; the derivative of E^p is p times that.
+[[gnu::always_inline]] inline void power_below(double exponent, EnergyWeights w,
+                                               const EnergyBatch& __restrict b, Lanes& __restrict below) {
+  for (unsigned i = 0; i < kLanes; ++i) below.at[i] = w.shape * b.shape.at[i] + w.area * b.area.at[i];
+  if (exponent == 2) return;
+  for (unsigned i = 0; i < kLanes; ++i) below.at[i] = exponent == 1 ? 1 : std::pow(below.at[i], exponent - 1);
+}
+
+/// Second half: E^p and the gradients of Eq. 6 at corners 0 and 1, times the derivative of E^p.
+/// l_0 = c, l_1 = -b, l_2 = a;  g_i = s_{i+} l_{i+} - s_{i-} l_{i-} + t n x l_i.
+template <bool kEquilateral>
+[[gnu::always_inline]] inline void gradients(const EdgeBatch& __restrict e,
+                                             const ReferenceBatch& __restrict r, EnergyWeights w,
+                                             double exponent, const Lanes& __restrict t,
+                                             const Lanes& __restrict below, EnergyBatch& __restrict out) {
   for (unsigned i = 0; i < kLanes; ++i) {
-    const double energy = w.shape * out.shape.at[i] + w.area * out.area.at[i];
-    const double below = exponent == 1 ? 1 : (exponent == 2 ? energy : derivative.at[i]);
-    out.powered.at[i] = below * energy;
-    const double factor = exponent * below;
+    out.powered.at[i] = below.at[i] * (w.shape * out.shape.at[i] + w.area * out.area.at[i]);
+    const double factor = exponent * below.at[i];
     const double s = factor * out.s.at[i];
     const double tt = factor * t.at[i];
-    out.s.at[i] = s;
     const double nx = out.g0x.at[i], ny = out.g0y.at[i], nz = out.g0z.at[i];
     const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
     const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
     const double cx = bx - ax, cy = by - ay, cz = bz - az;
-    // l_0 = c, l_1 = -b, l_2 = a;  g_i = s_{i+} l_{i+} - s_{i-} l_{i-} + t n x l_i
     const double s0 = s * (kEquilateral ? kEquilateralCot : r.cot0.at[i]);
     const double s1 = s * (kEquilateral ? kEquilateralCot : r.cot1.at[i]);
     const double s2 = s * (kEquilateral ? kEquilateralCot : r.cot2.at[i]);
+    out.s.at[i] = s;
     out.g0x.at[i] = tt * (ny * cz - nz * cy) - s1 * bx - s2 * ax;
     out.g0y.at[i] = tt * (nz * cx - nx * cz) - s1 * by - s2 * ay;
     out.g0z.at[i] = tt * (nx * cy - ny * cx) - s1 * bz - s2 * az;
@@ -104,13 +91,21 @@ template <bool kEquilateral>
 ISORELAX_VECTOR_CLONES
 void equilateral_batch(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w, double exponent,
                        EnergyBatch& out) {
-  energies<true>(e, r, w, exponent, out);
+  Lanes t;
+  Lanes below;
+  values<true>(e, r, w, out, t);
+  power_below(exponent, w, out, below);
+  gradients<true>(e, r, w, exponent, t, below, out);
 }
 
 ISORELAX_VECTOR_CLONES
 void general_batch(const EdgeBatch& e, const ReferenceBatch& r, EnergyWeights w, double exponent,
                    EnergyBatch& out) {
-  energies<false>(e, r, w, exponent, out);
+  Lanes t;
+  Lanes below;
+  values<false>(e, r, w, out, t);
+  power_below(exponent, w, out, below);
+  gradients<false>(e, r, w, exponent, t, below, out);
 }
 
 }  // namespace
@@ -122,14 +117,17 @@ Objective::Objective(const SmoothingProblem& problem)
       shape_(problem.triangle_count()),
       area_(problem.triangle_count()),
       powered_(problem.triangle_count()),
-      partials_(block_count(problem.triangle_count())) {}
+      partials_(block_count(problem.triangle_count())) {
+  if (problem.reference.is_uniform())
+    uniform_ = ReferenceBatch::load(problem.reference, BatchIds::of_range(0, 1));
+}
 
 void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids) {
   EdgeBatch edges;
-  ReferenceBatch reference;
+  const ReferenceBatch reference =
+      problem_->reference.is_uniform() ? uniform_ : ReferenceBatch::load(problem_->reference, ids);
   EnergyBatch out;
   edges.load(positions, problem_->triangles, ids);
-  reference.load(problem_->reference, ids);
   problem_->reference.is_equilateral()
       ? equilateral_batch(edges, reference, problem_->weights, problem_->exponent, out)
       : general_batch(edges, reference, problem_->weights, problem_->exponent, out);

@@ -65,6 +65,7 @@ class Objective {
   [[nodiscard]] VertexSums gather_as(Index vertex) const;
 
   const SmoothingProblem* problem_;  // a pointer, so that two objectives can be swapped
+  ReferenceBatch uniform_{};         // where all references are the same
   std::vector<TriangleState> states_;
   std::vector<std::array<double, 3>> corner_stiffness_;  // where the references differ from corner to corner
   std::vector<double> shape_, area_, powered_;

@@ -15,20 +15,34 @@ Vec3 line_direction(const SmoothingProblem& problem, std::span<const Vec3> posit
 
 }  // namespace
 
-Vec3 tangent_part(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex,
-                  const VertexSums& sums) {
-  switch (problem.mobility[vertex]) {
-    case Mobility::none:
-      return Vec3::Zero();
-    case Mobility::line: {
-      const Vec3 along = line_direction(problem, positions, vertex, sums.covariance);
-      return along * along.dot(sums.gradient);
-    }
-    case Mobility::plane:
-      break;
+std::array<Vec3, kLanes> tangent_parts(const SmoothingProblem& problem, std::span<const Vec3> positions,
+                                       Index first, std::span<const VertexSums> sums) {
+  std::array<Vec3, kLanes> normals;
+  if (problem.plane_normal) {
+    normals.fill(*problem.plane_normal);
+  } else {
+    CovarianceBatch batch{};
+    for (unsigned i = 0; i < sums.size(); ++i) batch.set(i, sums[i].covariance);
+    normals = dominant_eigenvectors(batch);
   }
-  const Vec3 normal = problem.plane_normal ? *problem.plane_normal : dominant_eigenvector(sums.covariance);
-  return sums.gradient - normal * normal.dot(sums.gradient);
+  std::array<Vec3, kLanes> parts;
+  for (unsigned i = 0; i < sums.size(); ++i) {
+    const Vec3& g = sums[i].gradient;
+    switch (problem.mobility[first + i]) {
+      case Mobility::none:
+        parts[i].setZero();
+        break;
+      case Mobility::line: {
+        const Vec3 along = line_direction(problem, positions, first + i, sums[i].covariance);
+        parts[i] = along * along.dot(g);
+        break;
+      }
+      case Mobility::plane:
+        parts[i] = g - normals[i] * normals[i].dot(g);
+        break;
+    }
+  }
+  return parts;
 }
 
 }  // namespace isorelax

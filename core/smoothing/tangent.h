@@ -4,9 +4,9 @@
 
 namespace isorelax {
 
-/// V V^T g: the part of a vertex' gradient that lies in its tangent space (paper Eq. 8), from the sums around
-/// it. Zero where it may not move.
-Vec3 tangent_part(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex,
-                  const VertexSums& sums);
+/// V V^T g for up to eight vertices: the part of each gradient that lies in its vertex' tangent space (paper
+/// Eq. 8), from the sums around it. Zero where a vertex may not move.
+std::array<Vec3, kLanes> tangent_parts(const SmoothingProblem& problem, std::span<const Vec3> positions,
+                                       Index first, std::span<const VertexSums> sums);
 
 }  // namespace isorelax

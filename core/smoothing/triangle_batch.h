@@ -3,27 +3,11 @@
 #include <algorithm>
 #include <span>
 
+#include "energy/reference.h"
+#include "mesh/lanes.h"
 #include "mesh/triangle_mesh.h"
 
-// Functions whose loops the compiler turns into vector instructions exist twice: for processors with AVX2 and
-// for all. Both give the same bits: no operation is reordered or fused. Sanitizers cannot start a program
-// that picks functions at load time.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define ISORELAX_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define ISORELAX_VECTOR_CLONES
-#endif
-
 namespace isorelax {
-
-/// Triangles handled together: the loops over lanes are what gets vectorised.
-inline constexpr unsigned kLanes = 8;
-
-/// One number of each lane.
-struct alignas(64) Lanes {
-  double at[kLanes];
-};
 
 /// The triangles of one batch: the last one repeated to fill it up.
 struct BatchIds {
@@ -62,6 +46,23 @@ struct EdgeBatch {
       e2y.at[i] = c[1] - a[1];
       e2z.at[i] = c[2] - a[2];
     }
+  }
+};
+
+/// The reference triangles of a batch.
+struct ReferenceBatch {
+  Lanes cot0, cot1, cot2, inverse_d1;
+
+  static ReferenceBatch load(const ReferenceMesh& reference, const BatchIds& ids) {
+    ReferenceBatch batch;
+    for (unsigned i = 0; i < kLanes; ++i) {
+      const ReferenceTriangle r = reference[ids.at[i]];
+      batch.cot0.at[i] = r.cot[0];
+      batch.cot1.at[i] = r.cot[1];
+      batch.cot2.at[i] = r.cot[2];
+      batch.inverse_d1.at[i] = 1 / r.d1;
+    }
+    return batch;
   }
 };
 

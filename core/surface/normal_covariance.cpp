@@ -6,11 +6,49 @@
 namespace isorelax {
 namespace {
 
-SymmetricMatrix squared(const SymmetricMatrix& m, double scale) {
-  const double xx = m.xx * scale, xy = m.xy * scale, xz = m.xz * scale;
-  const double yy = m.yy * scale, yz = m.yz * scale, zz = m.zz * scale;
-  return {xx * xx + xy * xy + xz * xz, xx * xy + xy * yy + xz * yz, xx * xz + xy * yz + xz * zz,
-          xy * xy + yy * yy + yz * yz, xy * xz + yy * yz + yz * zz, xz * xz + yz * yz + zz * zz};
+/// Unit vectors, and how purely the powers of the matrices consist of that one direction: 1 after
+/// convergence.
+struct PowerBatch {
+  Lanes x, y, z, purity;
+};
+
+/// Four squarings raise each matrix to the 16th power: what is not the dominant direction shrinks to (l2 /
+/// l1)^16.
+ISORELAX_VECTOR_CLONES
+void power_iteration(const CovarianceBatch& m, PowerBatch& out) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    double xx = m.xx.at[i], xy = m.xy.at[i], xz = m.xz.at[i], yy = m.yy.at[i], yz = m.yz.at[i],
+           zz = m.zz.at[i];
+    const double trace = xx + yy + zz;
+    double scale = 1 / (trace > 0 ? trace : 1);
+#pragma GCC unroll 4
+    for (int round = 0; round < 4; ++round) {
+      xx *= scale, xy *= scale, xz *= scale, yy *= scale, yz *= scale, zz *= scale;
+      const double sxx = xx * xx + xy * xy + xz * xz;
+      const double sxy = xx * xy + xy * yy + xz * yz;
+      const double sxz = xx * xz + xy * yz + xz * zz;
+      const double syy = xy * xy + yy * yy + yz * yz;
+      const double syz = xy * xz + yy * yz + yz * zz;
+      const double szz = xz * xz + yz * yz + zz * zz;
+      xx = sxx, xy = sxy, xz = sxz, yy = syy, yz = syz, zz = szz;
+      const double sum = xx + yy + zz;
+      scale = 1 / (sum > 0 ? sum : 1);
+    }
+    // The longest column, without a branch.
+    const bool y_wins = yy > xx;
+    const double best = y_wins ? yy : xx;
+    const bool z_wins = zz > best;
+    const double vx = z_wins ? xz : (y_wins ? xy : xx);
+    const double vy = z_wins ? yz : (y_wins ? yy : xy);
+    const double vz = z_wins ? zz : (y_wins ? yz : xz);
+    const double squares = vx * vx + vy * vy + vz * vz;
+    const double inverse = 1 / std::sqrt(squares > 0 ? squares : 1);
+    out.x.at[i] = vx * inverse;
+    out.y.at[i] = vy * inverse;
+    out.z.at[i] = vz * inverse;
+    // trace(P^2) = trace(P)^2 for one direction alone; a second one of comparable weight makes it smaller.
+    out.purity.at[i] = (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) * scale * scale;
+  }
 }
 
 }  // namespace
@@ -34,32 +72,27 @@ CovarianceEigen decompose(const SymmetricMatrix& covariance) {
   return {solver.eigenvalues().reverse(), solver.eigenvectors().rowwise().reverse()};
 }
 
+std::array<Vec3, kLanes> dominant_eigenvectors(const CovarianceBatch& m) {
+  PowerBatch power;
+  power_iteration(m, power);
+  std::array<Vec3, kLanes> vectors;
+  for (unsigned i = 0; i < kLanes; ++i) {
+    if (!(m.xx.at[i] + m.yy.at[i] + m.zz.at[i] > 0)) {
+      vectors[i].setZero();
+    } else if (power.purity.at[i] > 1 - 1e-13) {
+      vectors[i] = {power.x.at[i], power.y.at[i], power.z.at[i]};
+    } else {
+      vectors[i] =
+          decompose({m.xx.at[i], m.xy.at[i], m.xz.at[i], m.yy.at[i], m.yz.at[i], m.zz.at[i]}).vectors.col(0);
+    }
+  }
+  return vectors;
+}
+
 Vec3 dominant_eigenvector(const SymmetricMatrix& covariance) {
-  const double trace = covariance.xx + covariance.yy + covariance.zz;
-  if (!(trace > 0)) return Vec3::Zero();
-  // Four squarings raise the matrix to the 16th power: what is not the dominant direction shrinks to (l2 /
-  // l1)^16.
-  SymmetricMatrix power = covariance;
-  double scale = 1 / trace;
-  for (int i = 0; i < 4; ++i) {
-    power = squared(power, scale);
-    scale = 1 / (power.xx + power.yy + power.zz);
-  }
-  Vec3 v;
-  if (power.xx >= power.yy && power.xx >= power.zz) {
-    v = {power.xx, power.xy, power.xz};
-  } else if (power.yy >= power.zz) {
-    v = {power.xy, power.yy, power.yz};
-  } else {
-    v = {power.xz, power.yz, power.zz};
-  }
-  v /= std::sqrt(v.squaredNorm());
-  // After convergence trace(P)^2 = trace(P^2); a second direction of comparable weight makes it larger.
-  const double purity = (power.xx * power.xx + power.yy * power.yy + power.zz * power.zz +
-                         2 * (power.xy * power.xy + power.xz * power.xz + power.yz * power.yz)) *
-                        scale * scale;
-  if (!(purity > 1 - 1e-13)) return decompose(covariance).vectors.col(0);
-  return v;
+  CovarianceBatch batch{};
+  batch.set(0, covariance);
+  return dominant_eigenvectors(batch)[0];
 }
 
 }  // namespace isorelax

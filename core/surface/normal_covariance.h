@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "mesh/lanes.h"
 #include "mesh/topology.h"
 
 namespace isorelax {
@@ -41,8 +42,22 @@ SymmetricMatrix normal_covariance(std::span<const Vec3> positions, std::span<con
 /// Full decomposition. The largest eigenvector is the normal, the smallest the direction of a ridge.
 CovarianceEigen decompose(const SymmetricMatrix& covariance);
 
-/// Eigenvector of the largest eigenvalue alone: exact for planar neighbourhoods, several times cheaper than
-/// `decompose`. Zero for a zero matrix. Its sign is arbitrary.
+/// Eight covariance matrices, and what `dominant_eigenvectors` finds: one number per lane.
+struct CovarianceBatch {
+  Lanes xx, xy, xz, yy, yz, zz;
+
+  void set(unsigned lane, const SymmetricMatrix& m) {
+    xx.at[lane] = m.xx, xy.at[lane] = m.xy, xz.at[lane] = m.xz;
+    yy.at[lane] = m.yy, yz.at[lane] = m.yz, zz.at[lane] = m.zz;
+  }
+};
+
+/// Unit eigenvectors of the largest eigenvalues: exact for planar neighbourhoods, many times cheaper than
+/// `decompose` where the largest eigenvalue stands out, equal to it elsewhere. Zero for a zero matrix. Signs
+/// are arbitrary.
+std::array<Vec3, kLanes> dominant_eigenvectors(const CovarianceBatch& batch);
+
+/// The same for one matrix, with the same bits.
 Vec3 dominant_eigenvector(const SymmetricMatrix& covariance);
 
 }  // namespace isorelax
