@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "io/mesh_file.h"
@@ -59,10 +60,13 @@ class GenerateCommand : public Command {
         ->required()
         ->type_name("FILE");
     app.add_option("--seed", options_.seed, "Number that all randomness follows from (default 1)")
+        ->check(whole_number(0))
         ->type_name("S");
-    auto* vertices = app.add_option("--vertices", vertices_, "Number of vertices")->type_name("N");
-    auto* triangles =
-        app.add_option("--triangles", triangles_, "Number of triangles (default 2000)")->type_name("N");
+    auto* vertices =
+        app.add_option("--vertices", vertices_, "Number of vertices")->check(whole_number(1))->type_name("N");
+    auto* triangles = app.add_option("--triangles", triangles_, "Number of triangles (default 2000)")
+                          ->check(whole_number(1))
+                          ->type_name("N");
     vertices->excludes(triangles);
     app.add_option("--jitter", jitter_, "Largest random move, in edge lengths, 0 to 1")->type_name("J");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");

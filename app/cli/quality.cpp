@@ -1,6 +1,7 @@
 #include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
@@ -84,6 +85,7 @@ class QualityCommand : public Command {
     app.add_flag("--json", json_, "Print one JSON object");
     app.add_option("--worst", worst_,
                    "List the N triangles with the smallest angles (\"worst\" in the object)")
+        ->check(whole_number(0))
         ->type_name("N");
   }
   int run(Console& console) override {

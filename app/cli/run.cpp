@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command.h"
@@ -53,6 +54,11 @@ int parse_and_run(std::vector<std::string> arguments, Console& console) {
   app.footer(kFooter);
   app.set_version_flag("--version", "isorelax " ISORELAX_VERSION);
   app.require_subcommand(1);
+  for (const auto& [label, text] :
+       {std::pair("REQUIRED", "(required)"), std::pair("TEXT", ""), std::pair("SUBCOMMAND", "COMMAND ..."),
+        std::pair("Subcommands", "Commands")}) {
+    app.get_formatter()->label(label, text);
+  }
   int status = kDone;
   for (const auto& command : commands) {
     CLI::App* sub = app.add_subcommand(command->name(), command->summary());
@@ -66,7 +72,7 @@ int parse_and_run(std::vector<std::string> arguments, Console& console) {
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
-    console.result(chosen.empty() ? app.help() : chosen.front()->help());
+    console.result(chosen.empty() ? app.help() : chosen.front()->help("isorelax"));
   } catch (const CLI::CallForVersion& version) {
     console.result(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {

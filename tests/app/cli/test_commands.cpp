@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/program.h"
+
+namespace isorelax::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A tetrahedron with: 4 isolated; triangle 4 degenerate (vertex twice), 5 a copy of 1 turned over.
+const char* const kFlawed =
+    "OFF\n5 6 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n9 9 9\n"
+    "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 1 1 2\n3 1 0 3\n";
+const char* const kTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+/// Exactly one line, of the agreed form.
+void expect_one_error_line(const Outcome& outcome) {
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(outcome.err.rfind("isorelax: error: ", 0), 0U) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST(QualityCommand, PrintsExactlyTheKeysOfTheContract) {
+  const Workspace workspace;
+  const Outcome outcome = run_program("quality --json " + workspace.write("t.off", kTriangle));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  const Json object = Json::parse(outcome.out);
+  std::vector<std::string> expected = {
+      "vertices",     "triangles",    "min_angle_deg",    "max_angle_deg",       "mean_min_angle_deg",
+      "below_20_deg", "below_30_deg", "above_120_deg",    "area_max_over_min",   "area_std_over_mean",
+      "shape_mean",   "shape_max",    "radius_ratio_min", "scaled_jacobian_min", "aspect_ratio_max",
+      "inverted",     "degenerate"};
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(keys_of(object), expected);
+  EXPECT_NEAR(object["min_angle_deg"].get<double>(), 45, 1e-12);
+  EXPECT_NEAR(object["shape_max"].get<double>(), 2.3094010767585034, 1e-12);
+}
+
+TEST(QualityCommand, ListsTheWorstTrianglesFirst) {
+  const Workspace workspace;
+  const std::string mesh = workspace.path("m.off");
+  ASSERT_EQ(run_program("generate random --triangles 300 -o " + mesh).status, 0);
+  const Json object = Json::parse(run_program("quality --json --worst 4 " + mesh).out);
+  ASSERT_EQ(object["worst"].size(), 4U);
+  EXPECT_EQ(object["worst"][0]["min_angle_deg"], object["min_angle_deg"]);
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_LE(object["worst"][i - 1]["min_angle_deg"], object["worst"][i]["min_angle_deg"]);
+  }
+  const Outcome text = run_program("quality --worst 4 " + mesh);
+  const std::string id = std::to_string(object["worst"][0]["triangle"].get<int>());
+  EXPECT_NE(text.out.find("triangle " + id + " "), std::string::npos);
+}
+
+TEST(QualityCommand, WritesNullForInfinity) {
+  const Workspace workspace;
+  const Json object = Json::parse(run_program("quality --json " + workspace.write("f.off", kFlawed)).out);
+  EXPECT_TRUE(object["shape_max"].is_null());
+  EXPECT_EQ(object["degenerate"], 1);
+  EXPECT_EQ(object["min_angle_deg"], 0);
+}
+
+TEST(InfoCommand, NamesEveryFlawWithItsIds) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("f.off", kFlawed);
+  const Outcome outcome = run_program("info --json " + mesh);
+  EXPECT_EQ(outcome.status, 0);
+  const Json object = Json::parse(outcome.out);
+  EXPECT_EQ(object["isolated_vertices"], Json::parse("[4]"));
+  EXPECT_EQ(object["degenerate_triangles"][0]["triangle"], 4);
+  EXPECT_EQ(object["duplicate_triangles"], Json::parse(R"([{"triangle": 5, "same_as": 1}])"));
+  EXPECT_FALSE(object["manifold"]);
+  const Outcome text = run_program("info " + mesh);
+  EXPECT_NE(text.out.find("5 (same as 1)"), std::string::npos) << text.out;
+}
+
+TEST(InfoCommand, TellsGenusBoundaryAndOrientation) {
+  const Workspace workspace;
+  const std::string mesh = workspace.path("part.ply");
+  ASSERT_EQ(run_program("generate part -o " + mesh).status, 0);
+  const Json part = Json::parse(run_program("info --json " + mesh).out);
+  EXPECT_EQ(part["genus"], 1);
+  EXPECT_EQ(part["closed"], true);
+  EXPECT_EQ(part["oriented"], true);
+  const Json square = Json::parse(run_program("info --json " + workspace.write("t.off", kTriangle)).out);
+  EXPECT_EQ(square["boundary_loops"][0]["edges"], 3);
+  EXPECT_EQ(square["closed"], false);
+}
+
+TEST(GenerateCommand, WritesTheSameBytesForTheSameSeed) {
+  const Workspace workspace;
+  for (const char* const name : {"a.off", "b.off"}) {
+    const Outcome outcome =
+        run_program("generate random --seed 5 --triangles 454 -o " + workspace.path(name));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find("454 triangles"), std::string::npos);
+  }
+  EXPECT_EQ(contents(workspace.path("a.off")), contents(workspace.path("b.off")));
+  run_program("generate random --seed 6 --triangles 454 -o " + workspace.path("c.off"));
+  EXPECT_NE(contents(workspace.path("a.off")), contents(workspace.path("c.off")));
+}
+
+TEST(GenerateCommand, IsSilentWhenQuiet) {
+  const Workspace workspace;
+  EXPECT_EQ(run_program("generate cube --quiet -o " + workspace.path("c.off")).err, "");
+}
+
+TEST(Statuses, WrongUsageIsTwo) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  const std::vector<std::string> wrong = {
+      "info",
+      "nonsense",
+      "info --bogus x.off",
+      "quality " + mesh + " --worst -1",
+      "quality " + mesh + " --worst many",
+      "generate cube",
+      "generate dodecahedron -o " + workspace.path("x.off"),
+      "generate cube --jitter 2 -o " + workspace.path("x.off"),
+      "generate sphere --vertices 3 -o " + workspace.path("x.off"),
+      "generate cube --vertices 9 --triangles 9 -o " + workspace.path("x.off"),
+      "generate cube -o " + workspace.path("x.unknown")};
+  for (const std::string& arguments : wrong) {
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    expect_one_error_line(outcome);
+  }
+  EXPECT_FALSE(std::filesystem::exists(workspace.path("x.off")));
+}
+
+TEST(Statuses, InputThatCannotBeReadIsThreeAndNamed) {
+  const Workspace workspace;
+  const std::string bad = workspace.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n");
+  for (const std::string& command : {std::string("info "), std::string("quality ")}) {
+    for (const std::string& file : {workspace.path("missing.off"), workspace.path(""), bad}) {
+      const Outcome outcome = run_program(command + file);
+      EXPECT_EQ(outcome.status, 3) << file;
+      expect_one_error_line(outcome);
+      EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+    }
+    EXPECT_NE(run_program(command + bad).err.find("line 4"), std::string::npos);
+  }
+}
+
+TEST(Statuses, OutputThatCannotBeWrittenIsFour) {
+  const Workspace workspace;
+  const Outcome outcome = run_program("generate cube -o " + workspace.path("no/such/folder.off"));
+  EXPECT_EQ(outcome.status, 4);
+  expect_one_error_line(outcome);
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  EXPECT_EQ(run_program("info " + mesh + " > /dev/full").status, 4);
+  EXPECT_EQ(run_program("--help > /dev/full").status, 4);
+}
+
+TEST(Help, OfEveryCommandHasAnExample) {
+  const Outcome all = run_program("--help");
+  EXPECT_EQ(all.status, 0);
+  for (const std::string& name : std::vector<std::string>{"info", "quality", "generate"}) {
+    EXPECT_NE(all.out.find(name), std::string::npos);
+    const Outcome one = run_program(name + " --help");
+    EXPECT_EQ(one.status, 0);
+    EXPECT_EQ(one.err, "");
+    EXPECT_NE(one.out.find("Usage: isorelax " + name), std::string::npos) << one.out;
+    EXPECT_NE(one.out.find("  isorelax " + name + " "), std::string::npos) << one.out;
+  }
+}
+
+TEST(Help, VersionNamesTheProgram) {
+  const Outcome outcome = run_program("--version");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out.rfind("isorelax ", 0), 0U);
+}
+
+}  // namespace
+}  // namespace isorelax::test
