@@ -10,10 +10,15 @@
 
 namespace isorelax {
 
+/// How a format means its colours: always as fractions of one, or as bytes when all of them are whole.
+enum class ColorNumbers : std::uint8_t { fractions, bytes_or_fractions };
+
 /// Colours that a text file may, or may not, give for each vertex or face: whole numbers 0 .. 255 or
 /// fractions, with or without opacity.
 class ColorColumn {
  public:
+  explicit ColorColumn(ColorNumbers numbers) : whole_(numbers == ColorNumbers::bytes_or_fractions) {}
+
   /// Takes the next `width` (3 or 4) words of the current line as the colour of element `index`. Indices come
   /// in ascending order; elements passed over have no colour. Throws InputError for a word that is no number.
   void take(TextScanner& text, std::size_t index, unsigned width);
@@ -31,7 +36,8 @@ class ColorColumn {
     unsigned width = 0;
   };
   std::vector<Row> rows_;
-  bool whole_ = true;
+  /// Whether all numbers so far may be bytes.
+  bool whole_;
   unsigned width_ = 3;
 };
 

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "io/polygon_soup.h"
 #include "io/text_scanner.h"
@@ -26,6 +26,11 @@ void carry_over(const Triangulation& cut, MeshAttributes& attributes) {
     }
     labels.face_label = std::move(of_triangles);
   }
+  // Labels of left-out faces only label nothing.
+  std::erase_if(attributes.face_labels, [](const FaceLabels& labels) {
+    return std::all_of(labels.face_label.begin(), labels.face_label.end(),
+                       [](std::uint32_t label) { return label == kNone; });
+  });
   for (CornerAttribute& attribute : attributes.corner) {
     std::vector<std::uint32_t> indices;
     indices.reserve(cut.corner.size());

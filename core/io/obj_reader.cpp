@@ -71,7 +71,7 @@ class ObjReader {
   Table textures_{"texture coordinate"};
   Table normals_{"normal"};
   std::vector<ForwardReference> forward_;
-  ColorColumn colors_;
+  ColorColumn colors_{ColorNumbers::fractions};
   std::vector<double> weights_;
   std::size_t weighted_ = 0;
   std::vector<double> texture_values_;

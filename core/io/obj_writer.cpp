@@ -3,6 +3,7 @@
 
 #include "io/attribute_access.h"
 #include "io/mesh_file.h"
+#include "io/polygon_soup.h"
 #include "io/text_out.h"
 
 namespace isorelax {
@@ -33,7 +34,12 @@ class ObjWriter {
     write_table("vn", normal_ = find_values("normal", 3, 3));
     find_labels();
     write_faces();
-    return {std::move(out_), report_not_written(mesh_.attributes, written_, FileFormat::obj)};
+    EncodedMesh file{std::move(out_), report_not_written(mesh_.attributes, written_, FileFormat::obj)};
+    if (changed_labels_ > 0) {
+      file.messages.push_back(counted(changed_labels_, "label", "labels") +
+                              " written with _ for characters that OBJ does not allow there");
+    }
+    return file;
   }
 
  private:
@@ -43,6 +49,7 @@ class ObjWriter {
   IndexedValues find_values(const std::string& name, unsigned least, unsigned most);
   void write_table(const char* keyword, const IndexedValues& table);
   void find_labels();
+  std::string spelled(const std::string& label);
   void write_labels(std::size_t triangle);
   void write_faces();
 
@@ -53,6 +60,7 @@ class ObjWriter {
   IndexedValues normal_;
   std::vector<const FaceLabels*> labels_;
   std::vector<std::uint32_t> current_;
+  std::size_t changed_labels_ = 0;
 };
 
 void ObjWriter::write_libraries() {
@@ -133,11 +141,26 @@ void ObjWriter::find_labels() {
   current_.assign(labels_.size(), kNone);
 }
 
+/// A label as it can stand in a statement: "#" at the start of a word would begin a comment, a backslash at
+/// the end would join the next line.
+std::string ObjWriter::spelled(const std::string& label) {
+  std::string text = label;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins_word =
+        i == 0 || std::string_view(" \t\v\f").find(text[i - 1]) != std::string_view::npos;
+    if ((text[i] == '#' && begins_word) || (text[i] == '\\' && i + 1 == text.size())) {
+      text[i] = '_';
+    }
+  }
+  changed_labels_ += text != label ? 1 : 0;
+  return text;
+}
+
 void ObjWriter::write_labels(std::size_t triangle) {
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     const std::uint32_t label = labels_[i]->face_label[triangle];
     if (label != current_[i] && label != kNone) {
-      append_lines(out_, labels_[i]->keyword + " ", {labels_[i]->labels[label]});
+      append_lines(out_, labels_[i]->keyword + " ", {spelled(labels_[i]->labels[label])});
       current_[i] = label;
     }
   }

@@ -46,8 +46,8 @@ class OffReader {
   std::size_t face_count_ = 0;
   std::vector<double> normals_;
   std::vector<double> texture_;
-  ColorColumn vertex_colors_;
-  ColorColumn face_colors_;
+  ColorColumn vertex_colors_{ColorNumbers::bytes_or_fractions};
+  ColorColumn face_colors_{ColorNumbers::bytes_or_fractions};
   std::vector<double> color_indices_;
   std::size_t faces_with_index_ = 0;
   std::size_t odd_extras_ = 0;

@@ -41,6 +41,14 @@ std::string one_line_title(std::string_view title) {
 
 /// What any STL file loses: which triangles share a vertex, and vertices without a triangle.
 void report_vertices(const TriangleMesh& mesh, std::vector<std::string>& messages) {
+  std::vector<bool> used(mesh.positions.size(), false);
+  for (const Triangle& triangle : mesh.triangles) {
+    used[triangle[0]] = used[triangle[1]] = used[triangle[2]] = true;
+  }
+  if (const auto isolated = std::count(used.begin(), used.end(), false); isolated > 0) {
+    messages.push_back(counted(static_cast<std::size_t>(isolated), "vertex", "vertices") +
+                       " in no triangle not written");
+  }
   VertexMerger merger(mesh.positions.size());
   for (const Vec3& position : mesh.positions) {
     merger.add(position);
@@ -106,17 +114,17 @@ EncodedMesh encode_text(const TriangleMesh& mesh) {
   return file;
 }
 
+/// The 80 bytes before the count. A title that is too long, or that begins with "solid" and would let readers
+/// take the file for text, is left out and reported.
 std::string binary_title(const MeshAttributes& attributes, WrittenParts& written) {
   std::string title;
   if (const std::string* line = find_title(attributes)) {
     title = one_line_title(std::string_view(*line).substr(6));
-    if (title.size() <= kStlTitle) {
+    if (title.size() <= kStlTitle && !title.starts_with("solid")) {
       written.insert(line);
+    } else {
+      title.clear();
     }
-  }
-  // Readers take a file that begins with "solid" for text.
-  if (title.starts_with("solid")) {
-    title.insert(0, 1, '_');
   }
   title.resize(kStlTitle, '\0');
   return title;

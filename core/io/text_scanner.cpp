@@ -86,7 +86,9 @@ bool TextScanner::next_line() {
   line_number_ = lines_begun_;
   position_ = 0;
   words_taken_ = 0;
-  if (rules_.join == LineJoin::backslash && !line_.empty() && line_.back() == '\\') {
+  // A comment may end in a path; the line after it is no part of it.
+  const bool is_comment = rules_.comments != CommentRule::none && trimmed(line_).substr(0, 1) == "#";
+  if (rules_.join == LineJoin::backslash && !is_comment && !line_.empty() && line_.back() == '\\') {
     join_lines(line_);
   }
   cut_comment();

@@ -7,18 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/io/same_mesh.h"
 #include "io/mesh_file.h"
 
 namespace isorelax {
-
-inline bool same_number(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) ||
-         std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-inline bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same_number);
-}
 
 /// Two triangles whose coordinates are hard to keep: negative zero, the smallest and largest doubles, thirds.
 inline TriangleMesh hard_numbers() {
