@@ -9,30 +9,31 @@ uniform mat4 view_projection;      // from the mesh's frame to clip space
 uniform mat3 view_rotation;        // to the picture's axes
 uniform bool smooth_shading;
 
-out vec3 normal;
+out float facing;  // how much the surface looks at the light, -1 to 1; mesh.frag
 out vec3 barycentric;
 flat out vec4 color;
 flat out uint marks;
+
+vec3 unit(vec3 v) {
+  // Not by the length alone: the square of a tiny length vanishes.
+  float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+  return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
+}
 
 void main() {
   int triangle = gl_VertexID / 3;
   int corner = gl_VertexID - 3 * triangle;
   uvec4 t = texelFetch(triangles, triangle);
-  int vertex = int(t[corner]);
-  vec3 p = texelFetch(positions, vertex).xyz;
+  vec3 p = texelFetch(positions, int(t[corner])).xyz;
+  vec3 normal;
   if (smooth_shading) {
-    normal = view_rotation * texelFetch(normals, vertex).xyz;
+    normal = texelFetch(normals, int(t[corner])).xyz;
   } else {
     vec3 a = texelFetch(positions, int(t.x)).xyz;
-    vec3 b = texelFetch(positions, int(t.y)).xyz;
-    vec3 c = texelFetch(positions, int(t.z)).xyz;
-    vec3 u = b - a;
-    vec3 v = c - a;
-    // Unit lengths first: the product of two tiny edges must not vanish.
-    u /= max(max(abs(u.x), max(abs(u.y), abs(u.z))), 1e-30);
-    v /= max(max(abs(v.x), max(abs(v.y), abs(v.z))), 1e-30);
-    normal = view_rotation * cross(u, v);
+    normal = unit(cross(unit(texelFetch(positions, int(t.y)).xyz - a), unit(texelFetch(positions, int(t.z)).xyz - a)));
   }
+  // A headlight, a little of it from the upper left: 0.58 for a face that looks straight at the eye.
+  facing = dot(view_rotation * normal, vec3(-0.16, 0.26, 0.58));
   barycentric = vec3(corner == 0, corner == 1, corner == 2);
   color = texelFetch(colors, triangle);
   marks = t.w;

@@ -84,11 +84,12 @@ Camera zoom_to(const Camera& camera, double factor, double x, double y, PictureS
 struct FitOptions {
   /// Share of the picture's shorter side left free around the mesh.
   double margin = 0.06;
-  /// Share of the picture's height left free on the left and the right (a legend stands there).
-  double side = 0;
+  /// Length left free on the right (a legend stands there), as a share of the picture's height.
+  double right = 0;
 };
 
-/// The same direction, all of `bounds` in sight and centred. A single point is shown with extent 1.
+/// The same direction, all of `bounds` in sight and centred, or as near to the centre as the space kept free
+/// on the right allows. A single point is shown with extent 1.
 Camera fit(const Camera& camera, const Bounds& bounds, PictureSize size, const FitOptions& options = {});
 /// The same for the points themselves: tighter than their box.
 Camera fit(const Camera& camera, std::span<const Vec3> positions, PictureSize size,

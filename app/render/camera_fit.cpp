@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "render/camera.h"
 
@@ -29,59 +30,108 @@ std::array<Vec3, 8> corners_of(const Bounds& bounds) {
   return corners;
 }
 
-/// Half widths of the free part of the picture, in units of camera.extent.
-struct FreeHalf {
-  double x;
-  double y;
+/// The free part of the picture, from its middle, in units of camera.extent.
+struct FreeArea {
+  double left;   ///< < 0
+  double right;  ///< > 0
+  double half_height;
 };
 
-FreeHalf free_half(PictureSize size, const FitOptions& options) {
+FreeArea free_area(PictureSize size, const FitOptions& options) {
   const double width = size.width;
   const double height = size.height;
   const double shorter = std::max(1.0, std::min(width, height));
   const double margin = options.margin * shorter;
-  const double free_x = std::max(0.5 * width - margin - options.side * height, 0.1 * width);
-  const double free_y = std::max(0.5 * height - margin, 0.1 * height);
-  return {free_x / shorter, free_y / shorter};
+  const double half_width = std::max(0.5 * width - margin, 0.1 * width);
+  const double right = std::max(half_width - options.right * height, 0.2 * half_width);
+  return {-half_width / shorter, right / shorter, std::max(0.5 * height - margin, 0.1 * height) / shorter};
 }
 
-/// Least extent at which all points, as seen around the camera's target, lie in the free part.
-double extent_for(const Camera& camera, std::span<const Vec3> points, const FreeHalf& free) {
+/// A point as the camera sees it, from the target: to the right, up, toward the eye.
+struct Seen {
+  double x;
+  double y;
+  double z;
+};
+
+std::vector<Seen> see(const Camera& camera, std::span<const Vec3> points) {
   const CameraAxes axes = axes_of(camera);
-  // eye distance per extent
-  const double reach = eye_distance(camera) / camera.extent;
-  double extent = 0;
+  std::vector<Seen> seen;
+  seen.reserve(points.size());
   for (const Vec3& p : points) {
     const Vec3 d = p - camera.target;
-    const double across = std::max(std::abs(d.dot(axes.right)) / free.x, std::abs(d.dot(axes.up)) / free.y);
-    const double nearer = camera.projection == Projection::perspective ? d.dot(axes.toward_eye) / reach : 0;
-    // perspective: across / (1 - z / distance) <= extent with distance = reach * extent
-    extent = std::max(extent, across + nearer);
+    seen.push_back({d.dot(axes.right), d.dot(axes.up), d.dot(axes.toward_eye)});
   }
-  return extent;
+  return seen;
 }
 
-/// Target in the middle of the points' silhouette box for the camera's direction, at the depth of `center`.
-Vec3 centered_target(const Camera& camera, std::span<const Vec3> points, const Vec3& center) {
-  const CameraAxes axes = axes_of(camera);
-  double low[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  double high[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
-  for (const Vec3& p : points) {
-    const double at[2] = {(p - center).dot(axes.right), (p - center).dot(axes.up)};
-    for (int k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], at[k]);
-      high[k] = std::max(high[k], at[k]);
-    }
+/// Nearness to the eye per distance to it; nothing gets larger by being nearer in an orthographic picture.
+double nearness(const Camera& camera) {
+  return camera.projection == Projection::perspective ? camera.extent / eye_distance(camera) : 0;
+}
+
+/// Least extent at which all points, moved by (x, y) in the picture's plane, lie in the free part.
+double extent_for(const Camera& camera, std::span<const Seen> points, double x, double y,
+                  const FreeArea& free) {
+  const double near = nearness(camera);
+  double extent = 0;
+  for (const Seen& p : points) {
+    const double across =
+        std::max({(p.x + x) / free.right, (p.x + x) / free.left, std::abs(p.y + y) / free.half_height});
+    // In perspective across / (1 - z / distance) <= extent, where near = extent / distance.
+    extent = std::max(extent, across + p.z * near);
   }
-  return center + 0.5 * (low[0] + high[0]) * axes.right + 0.5 * (low[1] + high[1]) * axes.up;
+  return extent > 0 ? extent : 1;
+}
+
+/// Box around the points in the picture, in world lengths at the target.
+struct Silhouette {
+  double left = std::numeric_limits<double>::max();
+  double right = std::numeric_limits<double>::lowest();
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+};
+
+Silhouette silhouette_of(std::span<const Seen> points, double x, double y, double nearness_per_length) {
+  Silhouette box;
+  for (const Seen& p : points) {
+    const double depth = std::max(1 - p.z * nearness_per_length, 1e-3);
+    box.left = std::min(box.left, (p.x + x) / depth);
+    box.right = std::max(box.right, (p.x + x) / depth);
+    box.low = std::min(box.low, (p.y + y) / depth);
+    box.high = std::max(box.high, (p.y + y) / depth);
+  }
+  return box;
 }
 
 Camera fit_points(const Camera& camera, std::span<const Vec3> points, const Vec3& center, PictureSize size,
                   const FitOptions& options) {
   Camera fitted = camera;
-  fitted.target = points.empty() ? center : centered_target(camera, points, center);
-  fitted.extent = extent_for(fitted, points, free_half(size, options));
-  if (!(fitted.extent > 0)) fitted.extent = 1;
+  fitted.target = center;
+  if (points.empty()) {
+    fitted.extent = 1;
+    return fitted;
+  }
+  const std::vector<Seen> seen = see(fitted, points);
+  const FreeArea free = free_area(size, options);
+  double x = 0;
+  double y = 0;
+  double extent = extent_for(fitted, seen, x, y, free);
+  const double least = 1e-6 * extent;
+  // In perspective the silhouette depends on the extent; a few rounds settle both to less than a pixel.
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    const Silhouette box = silhouette_of(seen, x, y, nearness(fitted) / extent);
+    extent = std::max({(box.right - box.left) / (free.right - free.left),
+                       (box.high - box.low) / (2 * free.half_height), least});
+    // Across, no further than needed: a shape that fits in the picture's middle stays there.
+    const double middle = std::min(0.0, free.right * extent - 0.5 * (box.right - box.left));
+    x -= 0.5 * (box.left + box.right) - middle;
+    y -= 0.5 * (box.low + box.high);
+  }
+  const CameraAxes axes = axes_of(fitted);
+  fitted.target -= x * axes.right + y * axes.up;
+  fitted.extent = extent_for(fitted, seen, x, y, free);
   return fitted;
 }
 

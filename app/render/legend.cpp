@@ -20,7 +20,7 @@ std::string to_text(double value, std::chars_format format, int precision) {
 /// Whether `decimals` show a number up to a share of the bar that nobody sees.
 bool is_shown_by(double value, int decimals, double width) {
   const double unit = std::pow(10.0, -decimals);
-  return std::abs(value - std::round(value / unit) * unit) <= 2e-3 * width;
+  return std::abs(value - std::round(value / unit) * unit) <= 5e-3 * width;
 }
 
 /// A label for `value` in a range of a width.

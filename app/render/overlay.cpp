@@ -15,6 +15,7 @@ constexpr double kEdge = 18;  ///< free at the picture's edge
 constexpr double kPad = 10;   ///< between the panel's edge and what stands on it
 constexpr double kBarWidth = 16;
 constexpr double kTickLength = 4;
+constexpr double kNoteGap = 6;
 constexpr double kLine = 22;  ///< from baseline to baseline
 /// Text smaller than this cannot be read, however small the picture.
 constexpr double kLeastTextPixels = 10.5;
@@ -22,14 +23,21 @@ constexpr double kLeastTextPixels = 10.5;
 struct Inks {
   Color text;
   Color dim;
-  Color panel;
 };
 
 Inks inks_for(const Background& background) {
   const Color middle = mix(background.top, background.bottom, 0.5);
   const bool dark = luminance(middle) < 0.2;
   const Color text = dark ? Color{232, 235, 240} : Color{30, 33, 39};
-  return {text, mix(middle, text, 0.62), middle};
+  return {text, mix(middle, text, 0.62)};
+}
+
+/// A veil of the background's own colours behind what is written: seen only where a mesh stands behind it.
+void veil(Canvas& canvas, const Background& background, int top, PictureSize size) {
+  for (int y = 0; y < canvas.image().height; ++y) {
+    const double below_top = std::clamp((top + y + 0.5) / size.height, 0.0, 1.0);
+    canvas.fill(0, y, canvas.image().width, y + 1, mix(background.top, background.bottom, below_top), 0.6);
+  }
 }
 
 /// Pixels per point for text and what stands beside it.
@@ -52,17 +60,17 @@ class LegendLayout {
   [[nodiscard]] int width() const { return static_cast<int>(std::ceil(width_)); }
   [[nodiscard]] int height() const { return static_cast<int>(std::ceil(height_)); }
 
-  Image paint(const Inks& inks) {
+  /// The legend with its upper left corner at row `top` of the picture.
+  Image paint(const Background& background, PictureSize size, int top) {
+    const Inks inks = inks_for(background);
     Canvas canvas(width(), height());
-    canvas.fill(0, 0, width(), height(), inks.panel, 0.55);
+    veil(canvas, background, top, size);
     double y = points(kPad) + font_.cap_height();
     canvas.text(font_, title_, points(kPad), y, Align::left, inks.text);
-    y += points(0.5 * kLine);
-    if (!legend_.high_note.empty()) y = note(canvas, legend_.high_note, y, inks);
+    y += points(0.4 * kLine);
     if (legend_.shows_above) y = swatch(canvas, kAboveRange, "above", y, inks);
-    y = bar(canvas, y + points(0.15 * kLine), inks);
+    y = bar(canvas, y + points(0.4 * kLine), inks);
     if (legend_.shows_below) y = swatch(canvas, kBelowRange, "below", y, inks);
-    if (!legend_.low_note.empty()) y = note(canvas, legend_.low_note, y, inks);
     if (legend_.shows_missing) swatch(canvas, kNoValue, "no value", y, inks);
     return canvas.image();
   }
@@ -70,22 +78,25 @@ class LegendLayout {
  private:
   [[nodiscard]] double points(double length) const { return length * scale_; }
 
+  /// Word beside a tick: those of the two ends.
+  [[nodiscard]] std::string note_at(const Tick& tick) const {
+    if (tick.position == 0) return legend_.low_note;
+    return tick.position == 1 ? legend_.high_note : std::string();
+  }
+
   void measure() {
     double labels = 0;
-    for (const Tick& tick : ticks_) labels = std::max(labels, font_.width(tick.text));
-    const int rows = legend_.shows_above + legend_.shows_below + legend_.shows_missing +
-                     !legend_.high_note.empty() + !legend_.low_note.empty();
+    for (const Tick& tick : ticks_) {
+      const std::string note = note_at(tick);
+      labels = std::max(labels,
+                        font_.width(tick.text) + (note.empty() ? 0 : points(kNoteGap) + font_.width(note)));
+    }
+    const int rows = legend_.shows_above + legend_.shows_below + legend_.shows_missing;
     if (legend_.shows_missing) labels = std::max(labels, font_.width("no value"));
     if (legend_.shows_above || legend_.shows_below) labels = std::max(labels, font_.width("above"));
     const double with_labels = points(kBarWidth + 2 * kTickLength) + labels;
     width_ = std::max(font_.width(title_), with_labels) + points(2 * kPad);
-    height_ = points(2 * kPad + 1.15 * kLine + rows * kLine) + font_.cap_height() + bar_height_;
-  }
-
-  double note(Canvas& canvas, const std::string& text, double y, const Inks& inks) {
-    canvas.text(font_, text, points(kPad), y + 0.5 * (points(kLine) + font_.cap_height()), Align::left,
-                inks.dim);
-    return y + points(kLine);
+    height_ = points(2 * kPad + 1.1 * kLine + rows * kLine) + font_.cap_height() + bar_height_;
   }
 
   double swatch(Canvas& canvas, Color color, const std::string& text, double y, const Inks& inks) {
@@ -112,10 +123,13 @@ class LegendLayout {
       const double at = top + (1 - tick.position) * bar_height_;
       canvas.fill(x1, std::round(at - 0.5 * line), x1 + points(kTickLength),
                   std::round(at - 0.5 * line) + line, inks.dim);
-      canvas.text(font_, tick.text, x1 + points(2 * kTickLength), at + 0.5 * font_.cap_height(), Align::left,
-                  inks.text);
+      const double x = x1 + points(2 * kTickLength);
+      const double baseline = at + 0.5 * font_.cap_height();
+      canvas.text(font_, tick.text, x, baseline, Align::left, inks.text);
+      canvas.text(font_, note_at(tick), x + font_.width(tick.text) + points(kNoteGap), baseline, Align::left,
+                  inks.dim);
     }
-    return top + bar_height_ + points(0.5 * kLine);
+    return top + bar_height_ + points(0.3 * kLine);
   }
 
   const Legend& legend_;
@@ -128,16 +142,18 @@ class LegendLayout {
   double height_ = 0;
 };
 
-Overlay make_caption(const std::string& caption, const Inks& inks, PictureSize size, double scale) {
+Overlay make_caption(const Scene& scene, PictureSize size, double scale) {
   Font font(kTextSize * scale);
   const double pad = 0.5 * kPad * scale;
-  const int width = static_cast<int>(std::ceil(font.width(caption) + 2 * pad));
+  const int width = static_cast<int>(std::ceil(font.width(scene.caption) + 2 * pad));
   const int height = static_cast<int>(std::ceil(kLine * scale));
-  Canvas canvas(std::min(width, size.width), height);
-  canvas.fill(0, 0, width, height, inks.panel, 0.55);
-  canvas.text(font, caption, pad, 0.5 * (height + font.cap_height()), Align::left, inks.text);
   const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
-  return {canvas.image(), edge, size.height - edge - height};
+  const int top = size.height - edge - height;
+  Canvas canvas(std::min(width, size.width), height);
+  veil(canvas, scene.background, top, size);
+  canvas.text(font, scene.caption, pad, 0.5 * (height + font.cap_height()), Align::left,
+              inks_for(scene.background).text);
+  return {canvas.image(), edge, top};
 }
 
 }  // namespace
@@ -147,16 +163,15 @@ double pixels_per_point(const Scene& scene, PictureSize size) {
 }
 
 std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
-  const Inks inks = inks_for(scene.background);
   const double scale = text_scale(scene, size);
   std::vector<Overlay> overlays;
   if (scene.legend) {
     LegendLayout layout(*scene.legend, size, scale);
     const int edge = static_cast<int>(std::lround((kEdge - kPad) * scale));
-    overlays.push_back(
-        {layout.paint(inks), size.width - edge - layout.width(), (size.height - layout.height()) / 2});
+    const int top = (size.height - layout.height()) / 2;
+    overlays.push_back({layout.paint(scene.background, size, top), size.width - edge - layout.width(), top});
   }
-  if (!scene.caption.empty()) overlays.push_back(make_caption(scene.caption, inks, size, scale));
+  if (!scene.caption.empty()) overlays.push_back(make_caption(scene, size, scale));
   return overlays;
 }
 

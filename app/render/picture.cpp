@@ -45,7 +45,7 @@ Image render_picture(const TriangleMesh& mesh, const std::optional<FaceColors>& 
                      const PictureOptions& options) {
   const Scene scene = make_scene(mesh, colors, options);
   FitOptions fitting;
-  fitting.side = legend_share(scene, options.size);
+  fitting.right = legend_share(scene, options.size);
   const Camera camera = parse_camera(options.camera, mesh.positions, options.size, fitting);
   const auto context = OffscreenContext::create(options.context);
   Renderer renderer(context->loader());

@@ -27,6 +27,15 @@ struct OverlayKey {
   friend bool operator==(const OverlayKey&, const OverlayKey&) = default;
 };
 
+/// How strongly shading darkens: less where colours are to be read.
+constexpr float kPlainRelief = 1;
+constexpr float kColoredRelief = 0.6F;
+
+bool has_lines(const SceneMesh& mesh) {
+  return mesh.wire.shown || (mesh.marked_edges.shown && !mesh.edge_marks.empty()) ||
+         !mesh.highlighted_faces.empty();
+}
+
 struct OverlayTexture {
   GlTexture texture;
   PictureSize size;
@@ -48,16 +57,25 @@ ShaderSource shader_from_file(const std::filesystem::path& folder, const std::st
   return {path.string(), {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()}};
 }
 
+/// The same shader with a macro defined.
+ShaderSource defining(ShaderSource source, const std::string& macro) {
+  // Behind the first line, which must be #version.
+  source.text.insert(source.text.find('\n') + 1, "#define " + macro + "\n");
+  return source;
+}
+
 struct Programs {
   ShaderProgram background;
-  ShaderProgram mesh;
+  ShaderProgram faces;
+  ShaderProgram faces_and_lines;
   ShaderProgram pick;
   ShaderProgram marker;
   ShaderProgram overlay;
 
   Programs(ShaderReader read, const std::filesystem::path& folder)
       : background(read(folder, "background.vert"), read(folder, "background.frag")),
-        mesh(read(folder, "mesh.vert"), read(folder, "mesh.frag")),
+        faces(read(folder, "mesh.vert"), read(folder, "mesh.frag")),
+        faces_and_lines(read(folder, "mesh.vert"), defining(read(folder, "mesh.frag"), "LINES")),
         pick(read(folder, "mesh.vert"), read(folder, "pick.frag")),
         marker(read(folder, "marker.vert"), read(folder, "marker.frag")),
         overlay(read(folder, "overlay.vert"), read(folder, "overlay.frag")) {}
@@ -146,15 +164,15 @@ void Renderer::Impl::draw_meshes(const Scene& scene, const Camera& camera, Pictu
     return static_cast<float>(std::max(0.5, 0.5 * width * points));
   };
   const Bounds bounds = scene_bounds();
-  const ShaderProgram& program = programs.mesh;
-  program.use();
-  program.set("view_rotation", view_rotation(camera));
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const SceneMesh& mesh = scene.meshes[i];
+    const ShaderProgram& program = has_lines(mesh) ? programs.faces_and_lines : programs.faces;
     const glm::vec4 wire(mesh.wire.color.red / 255.0F, mesh.wire.color.green / 255.0F,
                          mesh.wire.color.blue / 255.0F, static_cast<float>(mesh.wire.opacity));
+    program.use();
+    program.set("view_rotation", view_rotation(camera));
     program.set("view_projection", view_projection(camera, size, meshes[i].frame(), bounds));
-    program.set("relief", mesh.face_values.empty() ? 1.0F : 0.6F);
+    program.set("relief", mesh.face_values.empty() ? kPlainRelief : kColoredRelief);
     program.set("wire_shown", mesh.wire.shown ? 1 : 0);
     program.set("wire_color", wire);
     program.set("wire_half_width", half_pixels(mesh.wire.width));

@@ -44,6 +44,19 @@ void add_cells(TriangleMesh& mesh, Index rows, Index columns,
     }
 }
 
+/// A torus whose vertex (i, j) stands at the angle turned(u, v) around the z axis.
+void add_ring_of_rings(TriangleMesh& mesh, Index around, Index across,
+                       const std::function<double(double, double)>& turned) {
+  for (Index j = 0; j < across; ++j)
+    for (Index i = 0; i < around; ++i) {
+      const double v = 2 * std::numbers::pi * j / across;
+      const double u = turned(2 * std::numbers::pi * i / around, v);
+      const double r = 1 + 0.4 * std::cos(v);
+      mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
+    }
+  add_cells(mesh, across, around, [&](Index i, Index j) { return (j % across) * around + i % around; });
+}
+
 }  // namespace
 
 TriangleMesh jittered_square(Index cells, double jitter) {
@@ -66,14 +79,14 @@ TriangleMesh jittered_square(Index cells, double jitter) {
 
 TriangleMesh torus(Index around, Index across) {
   TriangleMesh mesh;
-  for (Index j = 0; j < across; ++j)
-    for (Index i = 0; i < around; ++i) {
-      const double u = 2 * std::numbers::pi * i / around;
-      const double v = 2 * std::numbers::pi * j / across;
-      const double r = 1 + 0.4 * std::cos(v);
-      mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
-    }
-  add_cells(mesh, across, around, [&](Index i, Index j) { return (j % across) * around + i % around; });
+  add_ring_of_rings(mesh, around, across, [](double u, double) { return u; });
+  return mesh;
+}
+
+TriangleMesh uneven_torus(Index around, Index across) {
+  TriangleMesh mesh;
+  add_ring_of_rings(mesh, around, across,
+                    [](double u, double v) { return u + 0.45 * std::sin(u) + 0.12 * std::sin(6 * v); });
   return mesh;
 }
 

@@ -13,6 +13,9 @@ TriangleMesh jittered_square(Index cells, double jitter);
 /// A torus around the z axis, radii 1 and 0.4.
 TriangleMesh torus(Index around, Index across);
 
+/// The same with vertices crowded to one side and every other ring turned: triangles of many shapes.
+TriangleMesh uneven_torus(Index around, Index across);
+
 /// Degrees, one per triangle.
 std::vector<double> min_angles(const TriangleMesh& mesh);
 std::vector<double> max_angles(const TriangleMesh& mesh);
