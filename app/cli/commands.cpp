@@ -4,12 +4,16 @@ namespace isorelax::cli {
 
 std::unique_ptr<Command> make_info_command();
 std::unique_ptr<Command> make_quality_command();
+std::unique_ptr<Command> make_smooth_command();
+std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_generate_command();
 
 std::vector<std::unique_ptr<Command>> all_commands() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(make_info_command());
   commands.push_back(make_quality_command());
+  commands.push_back(make_smooth_command());
+  commands.push_back(make_render_command());
   commands.push_back(make_generate_command());
   return commands;
 }

@@ -39,6 +39,26 @@ std::string_view to_string(StopReason reason) {
   return "unknown";
 }
 
+std::string_view name_of(StopReason reason) {
+  switch (reason) {
+    case StopReason::iterations:
+      return "iterations";
+    case StopReason::gradient:
+      return "gradient";
+    case StopReason::energy:
+      return "energy";
+    case StopReason::movement:
+      return "movement";
+    case StopReason::stalled:
+      return "stalled";
+    case StopReason::fixed:
+      return "fixed";
+    case StopReason::cancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
 RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec3> positions,
               const RunOptions& options, const StepObserver& observer) {
   RunResult result;

@@ -23,7 +23,7 @@ class Smoother {
 /// Options of the paper's step (Sec. 3, Eq. 9).
 struct JacobiOptions {
   /// Factor on the displacement of Eq. 9.
-  double relaxation = 1;
+  double relaxation = 0.9;
   RecordDetail detail = RecordDetail::vertices;
 };
 
@@ -43,6 +43,8 @@ enum class StopReason : std::uint8_t {
 };
 /// One sentence for people.
 std::string_view to_string(StopReason reason);
+/// One word for programs: "iterations", "gradient", ...
+std::string_view name_of(StopReason reason);
 
 struct RunOptions {
   unsigned iterations = 100;

@@ -1,0 +1,130 @@
+#include "cli/problem_options.h"
+
+#include <CLI/App.hpp>
+#include <charconv>
+#include <fstream>
+#include <optional>
+
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+#include "mesh/error.h"
+
+namespace isorelax::cli {
+namespace {
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+EnergyWeights parse_weights(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) {
+    const auto shape = number(std::string_view(text).substr(0, comma));
+    const auto area = number(std::string_view(text).substr(comma + 1));
+    if (shape && area) return {*shape, *area};
+  }
+  throw UsageError("--weights " + text + ": expected two numbers, shape and area, as in 1,0.5");
+}
+
+BoundaryRule parse_boundary(const std::string& text) {
+  if (text == "fixed") return BoundaryRule::fixed;
+  if (text == "slide") return BoundaryRule::slide;
+  if (text == "free") return BoundaryRule::free;
+  throw UsageError("--boundary " + text + ": expected fixed, slide or free");
+}
+
+/// Vertex numbers from 0, separated by white space or commas; # starts a comment.
+std::vector<Index> read_pins(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path, "", "cannot be opened");
+  std::vector<Index> pins;
+  std::string line;
+  for (unsigned row = 1; std::getline(file, line); ++row) {
+    line.resize(std::min(line.size(), line.find('#')));
+    std::size_t at = 0;
+    while ((at = line.find_first_not_of(" \t\r,", at)) != std::string::npos) {
+      const std::size_t end = std::min(line.size(), line.find_first_of(" \t\r,", at));
+      Index id = 0;
+      const auto [stop, error] = std::from_chars(line.data() + at, line.data() + end, id);
+      if (error != std::errc() || stop != line.data() + end) {
+        throw InputError(path, "line " + std::to_string(row),
+                         "expected vertex numbers, found \"" + line.substr(at, end - at) + "\"");
+      }
+      pins.push_back(id);
+      at = end;
+    }
+  }
+  if (file.bad()) throw InputError(path, "", "cannot be read");
+  return pins;
+}
+
+}  // namespace
+
+void declare_problem(CLI::App& app, ProblemSpec& spec) {
+  auto* mu = app.add_option("--mu", spec.mu, "mu_A: 0 improves angles only, 1 areas only (default 0)")
+                 ->type_name("M")
+                 ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--weights", spec.weights, "Weights of the shape and the area term, instead of --mu")
+      ->type_name("S,A")
+      ->excludes(mu);
+  app.add_option("--exponent", spec.exponent,
+                 "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 1)")
+      ->type_name("P");
+  app.add_option("--reference", spec.reference,
+                 "Triangles to aim at: equilateral (of the mean area, default), equilateral:EDGE, initial, "
+                 "or a mesh FILE")
+      ->type_name("R");
+  app.add_option("--boundary", spec.boundary,
+                 "fixed (default), slide (along the border, corners stay) or free")
+      ->type_name("RULE");
+  app.add_option("--features", spec.features,
+                 "Ridges and corners to keep: auto (default), none, or the ridge angle in degrees")
+      ->type_name("F");
+  app.add_option("--pin", spec.pin_file, "File of vertex numbers (from 0) that must not move")
+      ->type_name("FILE");
+  app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")
+      ->type_name("N");
+}
+
+ReferenceChoice parse_reference(Console& console, const std::string& text) {
+  if (text == "equilateral") return MeanAreaReference{};
+  if (text == "initial") return InitialReference{};
+  constexpr std::string_view kEdge = "equilateral:";
+  if (text.starts_with(kEdge)) {
+    const auto edge = number(std::string_view(text).substr(kEdge.size()));
+    if (!edge || !(*edge > 0))
+      throw UsageError("--reference " + text + ": expected a positive edge length after the colon");
+    return EdgeLengthReference{*edge};
+  }
+  return MeshReference{read_input(console, text).positions};
+}
+
+FeatureOptions parse_features(const std::string& text) {
+  if (text == "auto") return {};
+  if (text == "none") return FeatureOptions::none();
+  const auto degrees = number(text);
+  if (!degrees || !(*degrees > 0) || !(*degrees <= 180)) {
+    throw UsageError("--features " + text +
+                     ": expected auto, none, or an angle over 0 and up to 180 degrees");
+  }
+  FeatureOptions options;
+  options.ridge_angle_deg = *degrees;
+  return options;
+}
+
+ProblemOptions parse_problem(Console& console, const ProblemSpec& spec) {
+  ProblemOptions options;
+  options.weights = spec.weights.empty() ? EnergyWeights::from_mu(spec.mu) : parse_weights(spec.weights);
+  options.exponent = spec.exponent;
+  options.boundary = parse_boundary(spec.boundary);
+  options.features = parse_features(spec.features);
+  options.reference = parse_reference(console, spec.reference);
+  if (!spec.pin_file.empty()) options.pinned = read_pins(spec.pin_file);
+  options.threads = spec.threads;
+  return options;
+}
+
+}  // namespace isorelax::cli

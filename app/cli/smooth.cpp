@@ -1,0 +1,167 @@
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/json.h"
+#include "cli/mesh_input.h"
+#include "cli/problem_options.h"
+#include "cli/table.h"
+#include "io/atomic_file.h"
+#include "io/mesh_file.h"
+#include "mesh/error.h"
+#include "quality/report.h"
+#include "smoothing/run.h"
+
+namespace isorelax::cli {
+namespace {
+
+/// What one smoothing run did, for the report and the summary.
+struct Outcome {
+  QualityReport before, after;
+  RunResult run;
+  std::array<std::size_t, 8> limits{};
+  std::vector<std::string> notes;
+};
+
+constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
+                                kLimitFold,   kLimitEnergy, kLimitSurface, kLimitConverged};
+
+Json to_json(const Outcome& outcome) {
+  Json object;
+  object["before"] = cli::to_json(outcome.before);
+  object["after"] = cli::to_json(outcome.after);
+  object["iterations"] = outcome.run.iterations;
+  object["stopped"] = name_of(outcome.run.stopped);
+  object["stopped_because"] = to_string(outcome.run.stopped);
+  object["seconds"] = outcome.run.seconds;
+  object["energy_before"] = outcome.run.before.energy;
+  object["energy_after"] = outcome.run.after.energy;
+  object["gradient_ratio"] = outcome.run.gradient_ratio;
+  object["relative_energy_change"] = outcome.run.energy_change;
+  object["relative_move"] = outcome.run.relative_move;
+  Json limited;
+  for (std::size_t bit = 0; bit < kLimits.size(); ++bit)
+    limited[std::string(limit_name(kLimits[bit]))] = outcome.limits[bit];
+  object["limited_in_last_step"] = std::move(limited);
+  object["notes"] = outcome.notes;
+  return object;
+}
+
+std::string summary(const Outcome& outcome) {
+  const auto line = [](const char* label, double before, double after, const char* unit) {
+    return std::string(label) + number_text(before) + " -> " + number_text(after) + unit;
+  };
+  std::string text =
+      line("smallest angle ", outcome.before.min_angle_deg, outcome.after.min_angle_deg, " deg, ");
+  text += line("largest ", outcome.before.max_angle_deg, outcome.after.max_angle_deg, " deg, ");
+  text +=
+      line("mean of smallest ", outcome.before.mean_min_angle_deg, outcome.after.mean_min_angle_deg, " deg");
+  return text;
+}
+
+class SmoothCommand : public Command {
+ public:
+  [[nodiscard]] std::string name() const override { return "smooth"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Move the vertices of a mesh so that its triangles get better";
+  }
+  [[nodiscard]] std::string notes() const override {
+    return "Minimises the sum of E = (1 - mu) K + mu S over the triangles: K = kappa + 1/kappa measures "
+           "angles,\n"
+           "S = sqrt(det) + 1/sqrt(det) areas, both against the reference triangle. Vertices move in the "
+           "tangent\n"
+           "plane only, along ridges, and not at all at corners. No triangle is turned over and the energy "
+           "never\n"
+           "rises. What cannot be treated (non-manifold places, degenerate triangles) is pinned and named.\n"
+           "\n"
+           "A run stops after --iterations steps, or when the tangent gradient falls below T times its "
+           "start, the\n"
+           "largest move below T mean edges, or the relative decrease of the energy below T/1000; "
+           "--tolerance 0\n"
+           "does exactly --iterations steps.\n"
+           "\n"
+           "Examples:\n"
+           "  isorelax smooth part.off -o better.off --report report.json\n"
+           "  isorelax smooth plate.obj -o plate2.obj --mu 0.5 --boundary slide --iterations 500\n"
+           "  isorelax smooth moved.ply -o moved.ply --reference initial.ply --pin held.txt";
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("IN", input_, "Mesh to smooth: OFF, OBJ, PLY or STL")->required();
+    app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
+        ->required()
+        ->type_name("OUT");
+    app.add_option("--solver", solver_, "jacobi: the paper's step")->type_name("SOLVER");
+    declare_problem(app, problem_);
+    app.add_option("--relaxation", jacobi_.relaxation, "Factor on the Jacobi step (default 0.9)")
+        ->type_name("W")
+        ->check(CLI::Range(0.01, 2.0));
+    app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
+    app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
+        ->type_name("T")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");
+    app.add_flag("--quiet", quiet_, "Print nothing but errors");
+  }
+  int run(Console& console) override {
+    if (quiet_) console.set_verbosity(Verbosity::quiet);
+    if (solver_ != "jacobi") throw UsageError("--solver " + solver_ + ": expected jacobi");
+    if (!format_of_extension(output_))
+      throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
+    TriangleMesh mesh = read_input(console, input_);
+    const Outcome outcome = smooth(console, mesh);
+    for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
+    for (const std::string& message : write_mesh(output_, mesh)) console.message(output_ + ": " + message);
+    if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
+    console.message(cli::summary(outcome));
+    console.message("stopped after " + std::to_string(outcome.run.iterations) +
+                    " iterations: " + std::string(to_string(outcome.run.stopped)));
+    return kDone;
+  }
+
+ private:
+  /// Errors about the mesh get the name of its file.
+  [[nodiscard]] SmoothingProblem freeze(const TriangleMesh& mesh, const ProblemOptions& options) const {
+    try {
+      return make_problem(mesh.positions, mesh.triangles, options);
+    } catch (const MeshError& error) {
+      throw MeshError(input_ + ": " + error.what());
+    }
+  }
+
+  Outcome smooth(Console& console, TriangleMesh& mesh) const {
+    Outcome outcome;
+    const SmoothingProblem problem = freeze(mesh, parse_problem(console, problem_));
+    outcome.notes = problem.notes;
+    outcome.before = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
+    const auto smoother = make_jacobi(problem, jacobi_);
+    {
+      Progress progress(console, "smoothing");
+      outcome.run = isorelax::run(*smoother, problem, mesh.positions, run_,
+                                  [&](unsigned iteration, const StepRecord& record, std::span<const Vec3>) {
+                                    progress.update(static_cast<double>(iteration) / run_.iterations,
+                                                    "iteration " + std::to_string(iteration));
+                                    outcome.limits = count_limits(record);
+                                    return true;
+                                  });
+    }
+    outcome.after = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
+    return outcome;
+  }
+
+  std::string input_, output_, report_;
+  std::string solver_ = "jacobi";
+  ProblemSpec problem_;
+  JacobiOptions jacobi_;
+  RunOptions run_;
+  bool quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_smooth_command() {
+  return std::make_unique<SmoothCommand>();
+}
+
+}  // namespace isorelax::cli
