@@ -11,6 +11,9 @@
 namespace isorelax {
 namespace {
 
+/// More words than any statement with numbers has.
+constexpr std::size_t kManyWords = 16;
+
 /// A table that faces point into: v, vt or vn.
 struct Table {
   const char* noun;
@@ -126,7 +129,7 @@ void ObjReader::read_position() {
     }
     position[k] = text_.finite_number(kNames[k]);
   }
-  const std::size_t extra = text_.words_left();
+  const std::size_t extra = text_.words_left(kManyWords);
   if (extra == 1) {
     weights_.resize(positions_.count, 1.0);
     weights_.push_back(needed_number("the weight of a vertex"));
@@ -141,7 +144,7 @@ void ObjReader::read_position() {
 }
 
 void ObjReader::read_texture() {
-  const std::size_t words = text_.words_left();
+  const std::size_t words = text_.words_left(kManyWords);
   if (words < 1 || words > 3) {
     text_.fail("a texture coordinate has " + std::to_string(words) + " numbers; 1 to 3 are read");
   }

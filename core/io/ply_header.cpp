@@ -8,6 +8,10 @@
 namespace isorelax {
 namespace {
 
+/// No file in use comes near these; they keep the cost of a hostile header small.
+constexpr std::size_t kMostElements = 1000;
+constexpr std::size_t kMostProperties = 10000;
+
 struct TypeName {
   const char* name;
   ScalarType type;
@@ -68,6 +72,9 @@ void read_element(TextScanner& text, PlyHeader& header) {
                   [&](const PlyElement& other) { return other.name == element.name; })) {
     text.fail("element " + in_quotes(element.name) + " stands twice");
   }
+  if (header.elements.size() == kMostElements) {
+    text.fail("more than " + std::to_string(kMostElements) + " elements");
+  }
   header.elements.push_back(std::move(element));
 }
 
@@ -92,6 +99,9 @@ void read_property(TextScanner& text, PlyHeader& header) {
   }
   if (element.find(property.name)) {
     text.fail("property " + in_quotes(property.name) + " stands twice");
+  }
+  if (element.properties.size() == kMostProperties) {
+    text.fail("more than " + std::to_string(kMostProperties) + " properties of one element");
   }
   element.properties.push_back(std::move(property));
 }

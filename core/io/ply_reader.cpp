@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/mesh_file.h"
 #include "io/ply_columns.h"
@@ -59,7 +60,7 @@ class PlyReader {
   std::vector<double> texture_row_;
   CornerAttribute texture_{"texcoord", 2, {}, {}};
   std::size_t faces_without_texture_ = 0;
-  std::vector<std::string> dropped_lists_;
+  std::set<const PlyProperty*> dropped_lists_;
 };
 
 /// Refuses a count for which the rest of the file is too short, before memory is set aside for it.
@@ -138,9 +139,8 @@ std::vector<PlyColumn> kept_columns(const PlyElement& element, std::vector<PlyCo
 
 void PlyReader::drop_list(const PlyElement& element, const PlyProperty& list) {
   source_.skip(list.type, source_.list_size(list));
-  std::string what = "list " + in_quotes(list.name) + " of " + in_quotes(element.name);
-  if (std::find(dropped_lists_.begin(), dropped_lists_.end(), what) == dropped_lists_.end()) {
-    dropped_lists_.push_back(std::move(what));
+  if (dropped_lists_.insert(&list).second) {
+    raw_.messages.push_back("list " + in_quotes(list.name) + " of " + in_quotes(element.name) + " left out");
   }
 }
 
@@ -316,9 +316,6 @@ void PlyReader::finish() {
                               " without two texture coordinates per corner");
     }
     raw_.attributes.corner.push_back(std::move(texture_));
-  }
-  for (const std::string& list : dropped_lists_) {
-    raw_.messages.push_back(list + " left out");
   }
   if (const std::string rest = source_.describe_rest(); !rest.empty()) {
     raw_.messages.push_back(rest);

@@ -174,10 +174,10 @@ std::string_view TextScanner::rest_of_line() {
   return rest;
 }
 
-std::size_t TextScanner::words_left() const {
+std::size_t TextScanner::words_left(std::size_t most) const {
   std::size_t words = 0;
   bool inside = false;
-  for (std::size_t i = position_; i < line_.size(); ++i) {
+  for (std::size_t i = position_; i < line_.size() && words < most; ++i) {
     const bool blank = is_blank(line_[i]);
     words += !blank && !inside ? 1 : 0;
     inside = !blank;

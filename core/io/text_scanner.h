@@ -43,8 +43,9 @@ class TextScanner {
   [[nodiscard]] std::string_view peek_word() const;
   /// What is left of this line, without blanks around it.
   std::string_view rest_of_line();
-  /// Words left on this line.
-  [[nodiscard]] std::size_t words_left() const;
+  /// Words left on this line, counted up to `most`: a caller that asks at every element of one long line must
+  /// not walk through all of it each time.
+  [[nodiscard]] std::size_t words_left(std::size_t most) const;
   /// Whether no word of this line was taken yet.
   [[nodiscard]] bool at_line_start() const { return words_taken_ == 0; }
 

@@ -191,6 +191,29 @@ bool fits_in(std::size_t megabytes, Body body) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+TEST_F(Files, TimeFollowsTheSizeOfTheFileHoweverItIsLaidOut) {
+  std::string one_line = "OFF 50000 50000 0";
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\n";
+  std::string carriage_returns = "OFF\r50000 50000 0\r";
+  for (int i = 0; i < 50000; ++i) {
+    one_line += " 0 0 0";
+    carriage_returns += "0 0 0\r";
+    ply += "property list uchar int p" + std::to_string(i) + "\n";
+  }
+  for (int i = 0; i < 50000; ++i) {
+    one_line += " 3 0 1 2";
+    carriage_returns += "3 0 1 2\r";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(read_off(one_line, "one_line").mesh.triangles.size(), 50000U);
+  EXPECT_EQ(read_off(carriage_returns, "carriage_returns").mesh.triangles.size(), 50000U);
+  EXPECT_THROW(static_cast<void>(read_ply(ply, "properties")), InputError);
+  EXPECT_EQ(read_obj(std::string(2000000, '\\') + "\n\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "b")
+                .mesh.triangles.size(),
+            1U);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
 TEST_F(Files, MemoryFollowsTheSizeOfTheFileWhateverItsHeaderSays) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers reserve address space of their own";
