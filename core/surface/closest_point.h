@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace isorelax {
+
+/// A point of a triangulated surface and how far it is from the point that was asked about.
+struct SurfacePoint {
+  Index triangle = kNone;
+  Vec3 barycentric = Vec3::Zero();  ///< weights of the triangle's corners: none negative, sum 1
+  Vec3 point = Vec3::Zero();
+  double distance = 0;
+};
+
+/// Point of triangle (a, b, c) closest to `p`; exact for every region of the triangle (face, edges, corners),
+/// for triangles without area (then of its edges) and those that are one point. `triangle` stays kNone.
+[[nodiscard]] SurfacePoint closest_point_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
+                                                     const Vec3& c);
+
+/// Finds the closest point of a set of triangles: a tree of boxes, each split at the median of the
+/// triangles' centres, so that its depth is bounded whatever the mesh. Any triangles are accepted, flawed
+/// ones too. Building is O(T log T), a query allocates nothing. Reading from several threads at once is safe.
+class ClosestPointIndex {
+ public:
+  ClosestPointIndex() = default;
+  /// Copies what it needs. Precondition: indices below positions.size(), coordinates finite.
+  ClosestPointIndex(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
+  /// The closest point; of triangles at exactly the same distance the one with the smallest number. `hint` is
+  /// a triangle known to be near (the last answer, say): it makes the query cheaper and never changes the
+  /// result. Without triangles, or for a point that is not a number: triangle kNone at infinite distance.
+  [[nodiscard]] SurfacePoint closest(const Vec3& point, Index hint = kNone) const;
+
+ private:
+  /// The boxes of both children side by side. A child with a count is a leaf: `count` records from `child`.
+  struct Node {
+    Eigen::Array<double, 3, 2, Eigen::RowMajor> low, high;
+    std::array<std::uint32_t, 2> child;
+    std::array<std::uint32_t, 2> count;
+  };
+  struct Record {
+    Vec3 a, b, c;
+    Index triangle;
+  };
+  /// What the build sorts: a triangle's centre in units of the whole, where single precision is enough.
+  struct Centre {
+    std::array<float, 3> at;
+    Index triangle;
+  };
+  struct Search;
+  class Builder;
+
+  std::vector<Node> nodes_;      ///< the first is the root; empty where all triangles fit into one leaf
+  std::vector<Record> records_;  ///< in the order of the leaves
+  std::vector<std::uint32_t> record_of_;
+};
+
+}  // namespace isorelax

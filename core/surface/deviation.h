@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+
+#include "mesh/topology.h"
+
+namespace isorelax {
+
+/// How far a surface whose vertices moved is from what it was.
+struct Deviation {
+  double max = 0;  ///< largest distance between the two surfaces, over the original's bounding-box diagonal
+  double rms = 0;  ///< root of the mean squared distance over the area of both, over the same diagonal
+  /// (new - old) / |old| enclosed volume; 0 where nothing is enclosed.
+  double volume_change = 0;
+  /// Whether the surface is closed, consistently oriented and encloses a volume: volume_change means
+  /// something.
+  bool has_volume = false;
+  double normal_change_deg = 0;  ///< largest turn of a triangle's normal, of triangles that have area
+  double max_to_original = 0;  ///< largest distance from a point of the new surface to the original, relative
+  double max_to_new = 0;       ///< and from a point of the original to the new one
+};
+
+/// Measures both ways, from the new surface to the original and from the original to the new one, each by an
+/// exact closest-point search (method Sec. 9).
+///
+/// Sampling: every vertex, every edge's midpoint, every triangle's centroid and three more points inside,
+/// barycentric (2/3, 1/6, 1/6); the 64 triangles that hold the largest distances are then searched on finer
+/// and finer grids. The mean square weighs each triangle by its area, with the mean of two quadrature rules
+/// that are both exact for quadratics: (vertices 1/20, midpoints 2/15, centroid 9/20) and the three inner
+/// points.
+///
+/// `topology` is that of `triangles`; all indices below both sizes. The same for any number of threads.
+[[nodiscard]] Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,
+                                          std::span<const Triangle> triangles, const Topology& topology,
+                                          unsigned threads = 0);
+
+/// Volume enclosed by consistently oriented triangles, positive with normals to the outside: the divergence
+/// theorem about the mean of the vertices. Cubed length units; meaningless for an open surface.
+[[nodiscard]] double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                     unsigned threads = 0);
+
+}  // namespace isorelax

@@ -1,0 +1,147 @@
+#include "surface/deviation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/surface/shapes.h"
+#include "surface/closest_point.h"
+
+namespace isorelax {
+namespace {
+
+Deviation deviation(const TriangleMesh& before, const std::vector<Vec3>& after, unsigned threads = 1) {
+  return measure_deviation(before.positions, after, before.triangles,
+                           Topology(before.triangles, before.vertex_count()), threads);
+}
+
+TEST(Deviation, OfAnUnmovedMeshIsNothing) {
+  const TriangleMesh mesh = with_triangles(ShapeKind::part, 1000);
+  const Deviation d = deviation(mesh, mesh.positions);
+  EXPECT_LT(d.max, 1e-15);
+  EXPECT_EQ(d.volume_change, 0);
+  EXPECT_TRUE(d.has_volume);
+  EXPECT_EQ(d.normal_change_deg, 0);
+}
+
+TEST(Deviation, OfALiftedSquareIsItsHeight) {
+  const TriangleMesh mesh = with_triangles(ShapeKind::random_square, 400);
+  std::vector<Vec3> lifted = mesh.positions;
+  for (Vec3& x : lifted) x.z() += 0.01;
+  const Deviation d = deviation(mesh, lifted);
+  EXPECT_NEAR(d.max, 0.01 / std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(d.rms, 0.01 / std::sqrt(2.0), 1e-15);
+  EXPECT_FALSE(d.has_volume);
+  EXPECT_EQ(d.volume_change, 0);
+}
+
+TEST(Deviation, OfVerticesMovedInsideTheirPlaneIsNothing) {
+  const TriangleMesh mesh = with_triangles(ShapeKind::hexagonal_square, 600, 0.3);
+  std::vector<Vec3> moved = with_triangles(ShapeKind::hexagonal_square, 600, 0).positions;
+  ASSERT_EQ(moved.size(), mesh.positions.size());
+  EXPECT_LT(deviation(mesh, moved).max, 1e-15);
+}
+
+TEST(Deviation, OfAScaledSphereIsTheRadiusAndThreeTimesTheVolume) {
+  const TriangleMesh mesh = with_vertices(ShapeKind::sphere, 2000);
+  const double e = 1e-5;
+  std::vector<Vec3> grown = mesh.positions;
+  for (Vec3& x : grown) x *= 1 + e;
+  const Deviation d = deviation(mesh, grown);
+  EXPECT_NEAR(d.volume_change, 3 * e, 4 * e * e);
+  EXPECT_NEAR(d.max * 2 * std::sqrt(3.0), e, 0.01 * e);  // the box of a sphere: its diameter on three sides
+  EXPECT_NEAR(d.rms, d.max, 0.01 * d.max);
+  EXPECT_LT(d.normal_change_deg, 1e-6);
+}
+
+TEST(Deviation, CountsBothWays) {
+  // A pyramid's tip pressed into the base plane: the tip is far from the new surface by less than its height,
+  // and nothing of the new surface is as far from the old one.
+  const TriangleMesh mesh = {
+      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 0.5}},
+      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+      {},
+  };
+  std::vector<Vec3> flat = mesh.positions;
+  flat[4].z() = 0;
+  const Deviation d = deviation(mesh, flat);
+  const double diagonal = std::sqrt(4 + 4 + 0.25);
+  EXPECT_NEAR(d.max_to_new, 0.5 / diagonal, 1e-12);
+  EXPECT_NEAR(d.max_to_original, 0.5 / std::sqrt(1.25) / diagonal, 1e-6);  // from the centre to a slope
+  EXPECT_EQ(d.max, d.max_to_new);
+  EXPECT_NEAR(d.normal_change_deg, std::atan(0.5) * 180 / std::numbers::pi, 1e-9);
+}
+
+/// Largest distance of a grid of 100 steps on every triangle of one surface from the other one.
+double largest_on_grid(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+                       const std::vector<Triangle>& triangles) {
+  const ClosestPointIndex index(to, triangles);
+  double largest = 0;
+  for (const Triangle& t : triangles) {
+    for (int i = 0; i <= 100; ++i) {
+      for (int j = 0; i + j <= 100; ++j) {
+        const Vec3 p = (i * from[t[0]] + j * from[t[1]] + (100 - i - j) * from[t[2]]) / 100;
+        largest = std::max(largest, index.closest(p).distance);
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(Deviation, FindsPeaksBetweenTheSamples) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-0.2, 0.2);
+  for (int round = 0; round < 5; ++round) {
+    const TriangleMesh mesh = with_vertices(ShapeKind::sphere, 12);
+    std::vector<Vec3> moved = mesh.positions;
+    for (Vec3& x : moved) x += Vec3::NullaryExpr([&] { return u(random); });
+    const Deviation d = deviation(mesh, moved);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : mesh.positions) box.extend(x);
+    const double diagonal = box.diagonal().norm();
+    const double there = largest_on_grid(moved, mesh.positions, mesh.triangles);
+    const double back = largest_on_grid(mesh.positions, moved, mesh.triangles);
+    EXPECT_GE(d.max_to_original * diagonal, 0.9999 * there);
+    EXPECT_LE(d.max_to_original * diagonal, 1.01 * there);
+    EXPECT_GE(d.max_to_new * diagonal, 0.9999 * back);
+    EXPECT_LE(d.max_to_new * diagonal, 1.01 * back);
+  }
+}
+
+TEST(Deviation, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = with_triangles(ShapeKind::torus, 9000);
+  std::vector<Vec3> moved = mesh.positions;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-0.005, 0.005);
+  for (Vec3& x : moved) x += Vec3::NullaryExpr([&] { return u(random); });
+  const Deviation one = deviation(mesh, moved, 1);
+  for (const unsigned threads : {2U, 5U}) {
+    const Deviation other = deviation(mesh, moved, threads);
+    EXPECT_EQ(one.max, other.max);
+    EXPECT_EQ(one.rms, other.rms);
+    EXPECT_EQ(one.volume_change, other.volume_change);
+    EXPECT_EQ(one.normal_change_deg, other.normal_change_deg);
+  }
+}
+
+TEST(Deviation, HasNoVolumeChangeForAnOpenSurface) {
+  TriangleMesh mesh = generate(ShapeKind::cube, {});
+  EXPECT_NEAR(enclosed_volume(mesh.positions, mesh.triangles), 1, 1e-12);
+  mesh.triangles.pop_back();
+  std::vector<Vec3> grown = mesh.positions;
+  for (Vec3& x : grown) x *= 1.1;
+  EXPECT_FALSE(deviation(mesh, grown).has_volume);
+  EXPECT_EQ(deviation(mesh, grown).volume_change, 0);
+}
+
+TEST(Deviation, OfAnEmptyMeshIsNothing) {
+  const Deviation d = deviation(TriangleMesh(), {});
+  EXPECT_EQ(d.max, 0);
+  EXPECT_FALSE(d.has_volume);
+}
+
+}  // namespace
+}  // namespace isorelax
