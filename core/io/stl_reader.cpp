@@ -175,6 +175,13 @@ RawMesh read_binary(std::string_view bytes, const std::string& name) {
     throw InputError(one_line(name), "byte " + std::to_string(kStlTitle),
                      std::to_string(count) + " triangles are more than can be held");
   }
+  const std::size_t rest = bytes.size() - kStlHeader - kStlFacet * count;
+  if (rest > kStlHeader + kStlFacet * count) {
+    // Any file of another kind has some number in this place.
+    throw InputError(one_line(name), "byte " + std::to_string(kStlTitle),
+                     "the header promises " + std::to_string(count) + " triangles, but " +
+                         std::to_string(rest) + " more bytes follow them: this is no STL file");
+  }
   RawMesh raw;
   keep_header(bytes.substr(0, kStlTitle), raw);
   raw.attributes.position_type = ScalarType::float32;
@@ -195,7 +202,7 @@ RawMesh read_binary(std::string_view bytes, const std::string& name) {
   if (std::any_of(color.values.begin(), color.values.end(), [](double v) { return v != 0.0; })) {
     raw.attributes.face.push_back(std::move(color));
   }
-  if (const std::size_t rest = bytes.size() - kStlHeader - kStlFacet * count; rest > 0) {
+  if (rest > 0) {
     raw.messages.push_back(counted(rest, "byte", "bytes") + " after the last triangle left out");
   }
   return raw;

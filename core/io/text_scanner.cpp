@@ -123,7 +123,10 @@ void TextScanner::cut_comment() {
   if (!comment.empty() && comment.front() == ' ') {
     comment.remove_prefix(1);
   }
-  comments_.emplace_back(comment);
+  // A bare comment sign says nothing, and a file may have millions of them.
+  if (!comment.empty()) {
+    comments_.emplace_back(comment);
+  }
   line_ = line_.substr(0, place);
 }
 

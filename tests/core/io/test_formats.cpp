@@ -254,6 +254,11 @@ TEST(Stl, VerticesThatStlCannotHoldAreCounted) {
   EXPECT_TRUE(mentions(messages, "1 vertices stand where another does"));
 }
 
+TEST(Stl, AFewBytesAfterTheLastTriangleAreReported) {
+  const MeshFile file = read_stl(binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}) + "more", "mesh.stl");
+  EXPECT_TRUE(mentions(file.messages, "4 bytes after the last triangle left out"));
+}
+
 TEST(Stl, FacetsWithoutAnAreaAreKept) {
   const MeshFile file =
       read_stl(binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, 0, 1, 0, 0}}), "mesh.stl");

@@ -163,6 +163,8 @@ std::vector<Malformed> malformed_stl() {
       {"stl_short", read_stl, std::string(50, '\1'), "byte 50", "ends within the header"},
       {"stl_lying_count", read_stl, std::string(80, '\1') + "\xff\xff\xff\xff" + std::string(100, '\0'),
        "byte 80", "promises 4294967295 triangles, but the file holds 2"},
+      {"stl_other_kind_of_file", read_stl, binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}) + std::string(1000, 'x'),
+       "byte 80", "1000 more bytes follow them: this is no STL file"},
       {"stl_nan_binary", read_stl, binary_stl({{0, 0, 0, 1, std::nanf(""), 0, 0, 1, 0}}), "byte 112", "NaN"},
       {"stl_infinite_binary", read_stl, binary_stl({{HUGE_VALF, 0, 0, 1, 0, 0, 0, 1, 0}}), "byte 96",
        "infinite"},
