@@ -33,37 +33,6 @@ std::vector<EdgeFinding> find_inconsistent_edges(const TriangleMesh& mesh, const
   return found;
 }
 
-std::vector<DegenerateFinding> find_degenerate(const TriangleMesh& mesh) {
-  std::vector<DegenerateFinding> found;
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Triangle& v = mesh.triangles[t];
-    if (repeats_a_vertex(v)) {
-      found.push_back({t, DegenerateReason::repeated_vertex});
-    } else if (has_no_area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]])) {
-      found.push_back({t, DegenerateReason::zero_area});
-    }
-  }
-  return found;
-}
-
-std::vector<DuplicateFinding> find_duplicates(const TriangleMesh& mesh) {
-  std::vector<Triangle> sorted = mesh.triangles;
-  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
-  std::vector<Index> order(sorted.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
-  std::vector<DuplicateFinding> found;
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t j = i + 1;
-    for (; j < order.size() && sorted[order[j]] == sorted[order[i]]; ++j)
-      found.push_back({order[j], order[i]});
-    i = j;
-  }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
-  return found;
-}
-
 struct ComponentTally {
   long corners_of_edges = 0;  // sides on edges with two triangles: two per edge
   long boundary_edges = 0;
@@ -125,6 +94,37 @@ std::size_t count_edges(const Topology& topology, std::size_t crowded) {
 
 }  // namespace
 
+std::vector<DegenerateFinding> find_degenerate_triangles(const TriangleMesh& mesh) {
+  std::vector<DegenerateFinding> found;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Triangle& v = mesh.triangles[t];
+    if (repeats_a_vertex(v)) {
+      found.push_back({t, DegenerateReason::repeated_vertex});
+    } else if (has_no_area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]])) {
+      found.push_back({t, DegenerateReason::zero_area});
+    }
+  }
+  return found;
+}
+
+std::vector<DuplicateFinding> find_duplicate_triangles(const TriangleMesh& mesh) {
+  std::vector<Triangle> sorted = mesh.triangles;
+  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
+  std::vector<Index> order(sorted.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
+  std::vector<DuplicateFinding> found;
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t j = i + 1;
+    for (; j < order.size() && sorted[order[j]] == sorted[order[i]]; ++j)
+      found.push_back({order[j], order[i]});
+    i = j;
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
+  return found;
+}
+
 ValidationReport validate(const TriangleMesh& mesh) {
   const Topology topology(mesh.triangles, mesh.vertex_count());
   const Orientation orientation = find_orientation(mesh.triangles, topology);
@@ -139,8 +139,8 @@ ValidationReport validate(const TriangleMesh& mesh) {
     if ((topology.flags(v) & kNonManifoldVertex) != 0) report.non_manifold_vertices.push_back(v);
     if ((topology.flags(v) & kIsolatedVertex) != 0) report.isolated_vertices.push_back(v);
   }
-  report.degenerate = find_degenerate(mesh);
-  report.duplicates = find_duplicates(mesh);
+  report.degenerate = find_degenerate_triangles(mesh);
+  report.duplicates = find_duplicate_triangles(mesh);
   report.boundary = boundary_loops(mesh.triangles, topology);
   report.components =
       find_components(mesh, topology, orientation, report.boundary, report.non_manifold_edges);

@@ -71,6 +71,12 @@ struct ValidationReport {
   [[nodiscard]] bool manifold() const { return non_manifold_edges.empty() && non_manifold_vertices.empty(); }
 };
 
+/// Triangles that name a vertex twice or have no area (see has_no_area), ascending.
+[[nodiscard]] std::vector<DegenerateFinding> find_degenerate_triangles(const TriangleMesh& mesh);
+
+/// Triangles on the same three vertices as an earlier one, ascending. O(T log T).
+[[nodiscard]] std::vector<DuplicateFinding> find_duplicate_triangles(const TriangleMesh& mesh);
+
 /// Looks at a mesh with whatever flaws. O(V + T log T). Throws nothing of its own.
 [[nodiscard]] ValidationReport validate(const TriangleMesh& mesh);
 
