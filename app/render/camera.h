@@ -84,7 +84,8 @@ Camera zoom_to(const Camera& camera, double factor, double x, double y, PictureS
 struct FitOptions {
   /// Share of the picture's shorter side left free around the mesh.
   double margin = 0.06;
-  /// Length left free on the right (a legend stands there), as a share of the picture's height.
+  /// Length left free on the right (a legend stands there), as a share of the picture's height;
+  /// never more than four fifths of the right half.
   double right = 0;
 };
 

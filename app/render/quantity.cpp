@@ -71,12 +71,17 @@ Legend make_legend(Quantity quantity, const Coloring& coloring, std::span<const 
       legend.high_note = "worst";
       break;
   }
+  // The extremes tell whether there are greys; colouring a million values to find out would not be free.
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
   for (const double v : values) {
-    const Color color = color_of(coloring, v);
-    legend.shows_below |= color == kBelowRange;
-    legend.shows_above |= color == kAboveRange;
-    legend.shows_missing |= color == kNoValue;
+    low = v < low ? v : low;
+    high = v > high ? v : high;
+    legend.shows_missing |= std::isnan(v);
   }
+  if (low > high) return legend;
+  legend.shows_below = color_of(coloring, low) == kBelowRange;
+  legend.shows_above = color_of(coloring, high) == kAboveRange;
   return legend;
 }
 
