@@ -1,11 +1,16 @@
 #include <CLI/App.hpp>
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
+#include "cli/problem_options.h"
 #include "cli/table.h"
 #include "mesh/error.h"
 #include "quality/distribution.h"
@@ -18,7 +23,34 @@ std::string percent_text(double share) {
   return number_text(100 * share) + " %";
 }
 
-std::string report_text(const QualityReport& report) {
+/// The two terms of the energy against reference triangles, over all triangles; infinite where one has no
+/// area.
+struct ReferenceReport {
+  double shape_mean = 0;
+  double shape_max = 0;
+  double size_mean = 0;
+  double size_max = 0;
+};
+
+ReferenceReport measure_against(const ReferenceMesh& reference, const TriangleMesh& mesh) {
+  ReferenceReport report;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const std::array<Vec3, 3> x = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+    TriangleEnergy energy;
+    energy.shape = energy.area = std::numeric_limits<double>::infinity();
+    if (area_vector(x[0], x[1], x[2]).norm() > 0) energy = evaluate_energy(x, reference[t], {1, 1});
+    report.shape_mean += energy.shape;
+    report.shape_max = std::max(report.shape_max, energy.shape);
+    report.size_mean += energy.area;
+    report.size_max = std::max(report.size_max, energy.area);
+  }
+  report.shape_mean /= mesh.triangle_count();
+  report.size_mean /= mesh.triangle_count();
+  return report;
+}
+
+std::string report_text(const QualityReport& report, const std::optional<ReferenceReport>& against) {
   Table table;
   table.row("vertices", std::to_string(report.vertices));
   table.row("triangles", std::to_string(report.triangles));
@@ -32,6 +64,10 @@ std::string report_text(const QualityReport& report) {
   table.row("area deviation over mean", number_text(report.area_std_over_mean));
   table.row("mean shape (2 is best)", number_text(report.shape_mean));
   table.row("worst shape", number_text(report.shape_max));
+  if (against) {
+    table.row("mean size (2 is best)", number_text(against->size_mean));
+    table.row("worst size", number_text(against->size_max));
+  }
   table.row("worst radius ratio (1 is best)", number_text(report.radius_ratio_min));
   table.row("worst scaled Jacobian (1 is best)", number_text(report.scaled_jacobian_min));
   table.row("worst aspect ratio (1 is best)", number_text(report.aspect_ratio_max));
@@ -66,6 +102,9 @@ class QualityCommand : public Command {
            "  radius ratio     2 r / R, 1 when equilateral, 0 when flat               [radius_ratio_min]\n"
            "  scaled Jacobian  2/sqrt(3) times the sine of the smallest angle         [scaled_jacobian_min]\n"
            "  aspect ratio     l_max (l0+l1+l2) / (4 sqrt(3) A)                       [aspect_ratio_max]\n"
+           "--reference R gives shape by the angles of other triangles (\"initial\" is the mesh itself) and "
+           "adds\n"
+           "  size             sqrt(A/B) + sqrt(B/A) with the reference's area B      [size_mean, size_max]\n"
            "Shares (below_20_deg, below_30_deg by the smallest angle, above_120_deg by the largest) run from "
            "0\n"
            "to 1; area_std_over_mean is the population's standard deviation.\n"
@@ -78,7 +117,8 @@ class QualityCommand : public Command {
            "                   more (at the only shared one, if it is one) and the normal opposes the mean\n"
            "                   normal of the triangles that touch it. Degenerate triangles are not "
            "counted.\n\n"
-           "Example:\n  isorelax quality bunny.off --json --worst 5";
+           "Examples:\n  isorelax quality bunny.off --json --worst 5\n"
+           "  isorelax quality smoothed.off --reference original.off";
   }
   void declare(CLI::App& app) override {
     app.add_option("FILE", file_, "Mesh: OFF, OBJ, PLY or STL")->required();
@@ -87,25 +127,42 @@ class QualityCommand : public Command {
                    "List the N triangles with the smallest angles (\"worst\" in the object)")
         ->check(whole_number(0))
         ->type_name("N");
+    app.add_option(
+           "--reference", reference_,
+           "Measure shape against, and size too: equilateral, equilateral:EDGE, initial, or a mesh FILE")
+        ->type_name("R");
   }
   int run(Console& console) override {
     const TriangleMesh mesh = read_input(console, file_);
     if (mesh.triangles.empty()) throw MeshError(file_ + ": has no triangles to measure");
-    const QualityReport report = measure_quality(mesh);
+    QualityReport report = measure_quality(mesh);
+    std::optional<ReferenceReport> against;
+    if (!reference_.empty()) {
+      const ReferenceChoice choice = parse_reference(console, reference_);
+      against = measure_against(make_reference(choice, mesh.positions, mesh.triangles), mesh);
+      report.shape_mean = against->shape_mean;
+      report.shape_max = against->shape_max;
+    }
     std::vector<Index> worst;
     if (worst_ > 0) {
       const auto angles = face_metric(FaceMetric::min_angle, mesh.positions, mesh.triangles);
       worst = worst_elements(angles, worst_, WorstEnd::smallest);
     }
-    console.result(json_ ? json_text(object(mesh, report, worst))
-                         : report_text(report) + (worst.empty() ? "" : worst_text(mesh, worst)));
+    console.result(json_ ? json_text(object(mesh, report, worst, against))
+                         : report_text(report, against) + (worst.empty() ? "" : worst_text(mesh, worst)));
     return kDone;
   }
 
  private:
   [[nodiscard]] Json object(const TriangleMesh& mesh, const QualityReport& report,
-                            const std::vector<Index>& worst) const {
+                            const std::vector<Index>& worst,
+                            const std::optional<ReferenceReport>& against) const {
     Json object = to_json(report);
+    if (against) {
+      object["reference"] = reference_;
+      object["size_mean"] = against->size_mean;
+      object["size_max"] = against->size_max;
+    }
     if (worst_ > 0) {
       Json list = Json::array();
       for (const Index t : worst) list.push_back(triangle_to_json(mesh, t));
@@ -117,6 +174,7 @@ class QualityCommand : public Command {
   std::string file_;
   bool json_ = false;
   std::size_t worst_ = 0;
+  std::string reference_;
 };
 
 }  // namespace

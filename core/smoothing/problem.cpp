@@ -196,6 +196,8 @@ class ProblemBuilder {
   std::vector<Index> left_out_;
 };
 
+}  // namespace
+
 ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
                              std::span<const Triangle> triangles) {
   if (const auto* edge = std::get_if<EdgeLengthReference>(&choice)) {
@@ -211,6 +213,8 @@ ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3
   }
   return ReferenceMesh::equilateral_mean_area(positions, triangles);
 }
+
+namespace {
 
 void check(const ProblemOptions& options) {
   const EnergyWeights& w = options.weights;

@@ -32,6 +32,11 @@ struct MeshReference {
 };
 using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, InitialReference, MeshReference>;
 
+/// The reference triangles that a choice means for these triangles. Throws MeshError when another mesh does
+/// not have as many vertices or there is no area, UsageError for an edge length that is not positive.
+[[nodiscard]] ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
+                                           std::span<const Triangle> triangles);
+
 /// What is minimised and what may move.
 struct ProblemOptions {
   EnergyWeights weights;

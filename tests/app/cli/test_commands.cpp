@@ -69,6 +69,23 @@ TEST(QualityCommand, WritesNullForInfinity) {
   EXPECT_EQ(object["min_angle_deg"], 0);
 }
 
+TEST(QualityCommand, MeasuresShapeAndSizeAgainstAReference) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  const std::string large = workspace.write("l.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 2 0\n3 0 1 2\n");
+  const auto measure = [&](const std::string& reference) {
+    return Json::parse(run_program("quality --json " + mesh + " --reference " + reference).out);
+  };
+  EXPECT_NEAR(measure("initial")["shape_mean"].get<double>(), 2, 1e-12);
+  EXPECT_NEAR(measure(large)["shape_max"].get<double>(), 2, 1e-12);
+  EXPECT_NEAR(measure(large)["size_max"].get<double>(), 2.5, 1e-12);
+  EXPECT_NEAR(measure("equilateral")["shape_max"].get<double>(), 2.3094010767585034, 1e-12);
+  EXPECT_NEAR(measure("equilateral")["size_mean"].get<double>(), 2, 1e-12);
+  const std::string other = workspace.write("f.off", kFlawed);
+  EXPECT_EQ(run_program("quality " + mesh + " --reference " + other).status, 3);
+  EXPECT_EQ(run_program("quality " + mesh + " --reference equilateral:-1").status, 2);
+}
+
 TEST(InfoCommand, NamesEveryFlawWithItsIds) {
   const Workspace workspace;
   const std::string mesh = workspace.write("f.off", kFlawed);
