@@ -1,0 +1,39 @@
+#include "model/document.h"
+
+#include <cmath>
+#include <span>
+
+namespace isorelax::model {
+namespace {
+
+// The plane through the mesh, from the sum of the triangles' area vectors; a closed surface has none.
+std::optional<Vec3> find_plane(const TriangleMesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  for (const Triangle& t : mesh.triangles)
+    sum += area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+  if (sum.norm() == 0) return std::nullopt;
+  const Vec3 normal = sum.normalized();
+  double low = INFINITY;
+  double high = -INFINITY;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.positions) {
+    low = std::min(low, normal.dot(p));
+    high = std::max(high, normal.dot(p));
+    box.extend(p);
+  }
+  if (high - low > 1e-9 * box.diagonal().norm()) return std::nullopt;
+  return normal;
+}
+
+}  // namespace
+
+DocumentPtr read_document(const std::filesystem::path& path) {
+  auto document = std::make_shared<Document>();
+  document->path = path;
+  document->file = read_mesh(path);
+  document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
+  document->plane_normal = find_plane(document->mesh());
+  return document;
+}
+
+}  // namespace isorelax::model

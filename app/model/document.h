@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/mesh_file.h"
+#include "mesh/topology.h"
+#include "mesh/triangle_mesh.h"
+
+namespace isorelax::model {
+
+/// A mesh file as it was opened. Never changes; positions that a run moved stand in a MeshState.
+struct Document {
+  std::filesystem::path path;
+  MeshFile file;
+  Topology topology;
+  /// Unit normal of the plane that holds all vertices (to 1e-9 of the extent); none for a mesh in space.
+  std::optional<Vec3> plane_normal;
+
+  [[nodiscard]] const TriangleMesh& mesh() const { return file.mesh; }
+};
+using DocumentPtr = std::shared_ptr<const Document>;
+
+/// Reads a mesh file. Throws InputError.
+[[nodiscard]] DocumentPtr read_document(const std::filesystem::path& path);
+
+}  // namespace isorelax::model

@@ -1,0 +1,345 @@
+#include "model/executor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/jobs.h"
+
+namespace isorelax::model {
+namespace {
+
+constexpr std::size_t kMessagesKept = 100;
+constexpr std::size_t kRecentKept = 12;
+
+std::string count_label(unsigned iterations) {
+  return iterations == 1 ? "1 iteration" : std::to_string(iterations) + " iterations";
+}
+
+ValueRange united(const ValueRange& a, const ValueRange& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+constexpr std::array kMeasured{Coloring::min_angle, Coloring::max_angle, Coloring::relative_area,
+                               Coloring::energy};
+
+}  // namespace
+
+void Executor::say(MessageKind kind, std::string text) {
+  s_.messages.push_back({kind, std::move(text), ++s_.message_count_});
+  if (s_.messages.size() > kMessagesKept) s_.messages.pop_front();
+}
+
+bool Executor::wait_for_run(std::function<void(Session&)> then) {
+  if (!s_.is_running()) return false;
+  s_.after_run_.push_back(std::move(then));
+  s_.engine.cancel();
+  return true;
+}
+
+void Executor::operator()(const OpenFile& command) {
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.engine.cancel();
+  s_.activity = Activity::loading;
+  s_.engine.post("load", load_job(command.path, s_.smoothing));
+}
+
+void Executor::operator()(const SaveFile& command) {
+  if (!s_.current) {
+    say(MessageKind::error, "There is no mesh to save.");
+    return;
+  }
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.activity = Activity::saving;
+  s_.engine.post("save", save_job(s_.document, s_.current, command.path));
+}
+
+void Executor::operator()(const SetSmoothing& command) {
+  if (s_.is_running() || command.settings == s_.smoothing) return;
+  s_.undo.push({command.label, SettingsChange{s_.smoothing, command.settings}});
+  s_.smoothing = command.settings;
+  s_.remaining = 0;
+  measure_energy_if_changed();
+}
+
+void Executor::operator()(const EndEdit& /*command*/) { s_.undo.stop_merging(); }
+
+void Executor::operator()(const SetView& command) { s_.view = command.view; }
+
+void Executor::operator()(const Run& /*command*/) {
+  start_run(s_.remaining > 0 ? s_.remaining : s_.smoothing.iterations);
+}
+
+void Executor::operator()(const Step& /*command*/) { start_run(1); }
+
+void Executor::operator()(const Pause& /*command*/) {
+  if (s_.is_running()) s_.engine.cancel();
+}
+
+void Executor::operator()(const Cancel& /*command*/) { s_.engine.cancel(); }
+
+void Executor::start_run(unsigned iterations) {
+  if (!s_.current) {
+    say(MessageKind::info, "Open a mesh first.");
+    return;
+  }
+  if (s_.activity != Activity::idle || iterations == 0) return;
+  s_.run_start_ = s_.current;
+  s_.rows_at_start_ = s_.history;
+  s_.run_iterations_ = iterations;
+  s_.last_run.reset();
+  s_.activity = Activity::running;
+  // A new series starts where this one will: the plots need its first point.
+  if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
+    const QualityReport& q = s_.current->quality();
+    s_.history.push_back({s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0,
+                          s_.series});
+  }
+  s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series}));
+}
+
+void Executor::end_run() {
+  const bool was_running = s_.is_running();
+  s_.activity = Activity::idle;
+  if (was_running && s_.run_start_ && s_.run_start_->geometry != s_.current->geometry) {
+    const unsigned done = s_.current->iteration - s_.run_start_->iteration;
+    s_.undo.push({count_label(done), PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_),
+                                                     s_.history}});
+  }
+  s_.run_start_.reset();
+  s_.rows_at_start_.clear();
+  measure_energy_if_changed();
+  for (const auto& next : std::exchange(s_.after_run_, {})) next(s_);
+}
+
+void Executor::operator()(const Reset& command) {
+  if (!s_.current) return;
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  if (s_.activity != Activity::idle || s_.current->geometry == s_.original->geometry) return;
+  PositionsChange change{s_.current, s_.original, std::move(s_.history), {}};
+  if (s_.original->energy) {
+    const QualityReport& q = s_.original->quality();
+    change.rows_after.push_back(
+        {0, s_.original->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
+  }
+  s_.history = change.rows_after;
+  s_.undo.push({"Reset", std::move(change)});
+  s_.current = s_.original;
+  s_.last_step.reset();
+  s_.last_run.reset();
+  s_.remaining = 0;
+}
+
+void Executor::operator()(const StepBack& /*command*/) {
+  const UndoEntry* entry = s_.undo.next_undo();
+  if (entry != nullptr && std::holds_alternative<PositionsChange>(entry->change) && entry->label != "Reset")
+    (*this)(Undo{});
+  else if (s_.current)
+    say(MessageKind::info, "There is no earlier iteration to go back to.");
+}
+
+void Executor::operator()(const Undo& command) {
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  if (s_.activity != Activity::idle || s_.undo.next_undo() == nullptr) return;
+  apply(*s_.undo.next_undo(), false);
+  s_.undo.undone();
+}
+
+void Executor::operator()(const Redo& /*command*/) {
+  if (s_.activity != Activity::idle || s_.undo.next_redo() == nullptr) return;
+  apply(*s_.undo.next_redo(), true);
+  s_.undo.redone();
+}
+
+void Executor::apply(const UndoEntry& entry, bool forward) {
+  if (const auto* settings = std::get_if<SettingsChange>(&entry.change)) {
+    s_.smoothing = forward ? settings->after : settings->before;
+  } else {
+    const auto& positions = std::get<PositionsChange>(entry.change);
+    s_.current = forward ? positions.after : positions.before;
+    s_.history = forward ? positions.rows_after : positions.rows_before;
+    s_.last_step.reset();
+    s_.last_run.reset();
+  }
+  s_.remaining = 0;
+  measure_energy_if_changed();
+  say(MessageKind::info, (forward ? "Redone: " : "Undone: ") + entry.label);
+}
+
+// Asks the worker for the energies under the present settings where a state has those of other ones.
+void Executor::measure_energy_if_changed() {
+  if (!s_.current) return;
+  const auto stale = [&](const MeshStatePtr& state) {
+    return !state->energy || !same_energy(state->energy->settings, s_.smoothing);
+  };
+  if (stale(s_.current) || stale(s_.original))
+    s_.engine.post("energy", energy_job(s_.document, s_.smoothing, s_.original, s_.current));
+}
+
+void Executor::operator()(const SelectNextWorst& /*command*/) {
+  if (!s_.current) return;
+  const Coloring by = s_.view.coloring == Coloring::none ? Coloring::min_angle : s_.view.coloring;
+  const auto values = s_.current->values(by);
+  if (values.empty()) return;
+  const float sign = by == Coloring::min_angle ? 1.0F : -1.0F;  // smaller key: worse
+  using Key = std::pair<float, Index>;
+  const auto key = [&](Index t) { return Key{sign * values[t], t}; };
+  std::optional<Key> best;
+  for (Index t = 0; t < values.size(); ++t) {
+    if (s_.selected_triangle && key(t) <= key(*s_.selected_triangle)) continue;
+    if (!best || key(t) < *best) best = key(t);
+  }
+  s_.worst_rank = best ? s_.worst_rank + 1 : 0;
+  s_.selected_triangle = best ? std::optional(best->second) : std::nullopt;
+}
+
+void Executor::operator()(const ClearSelection& /*command*/) {
+  s_.selected_triangle.reset();
+  s_.worst_rank = 0;
+}
+
+void Executor::operator()(const CopyCommandLine& /*command*/) {
+  if (!s_.document) return;
+  s_.command_line = command_line(s_);
+  say(MessageKind::info, "Copied: " + s_.command_line);
+}
+
+void Executor::operator()(const Say& command) { say(command.message.kind, command.message.text); }
+
+void Executor::operator()(const SetRecent& command) {
+  s_.recent = command.paths;
+  if (s_.recent.size() > kRecentKept) s_.recent.resize(kRecentKept);
+}
+
+void Executor::operator()(const Collect& /*command*/) {
+  for (Event& event : s_.engine.collect()) std::visit(*this, event);
+  // A job that was dropped before it began leaves no event.
+  if (s_.activity != Activity::idle && !s_.engine.busy()) end_run();
+}
+
+void Executor::remember_recent(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  const auto& kept = error ? path : absolute;
+  std::erase(s_.recent, kept);
+  s_.recent.insert(s_.recent.begin(), kept);
+  if (s_.recent.size() > kRecentKept) s_.recent.resize(kRecentKept);
+}
+
+void Executor::show(const MeshStatePtr& state) {
+  s_.current = state;
+  for (const Coloring c : kMeasured) {
+    if (state->values(c).empty()) continue;
+    ValueRange& range = s_.run_range[static_cast<std::size_t>(c)];
+    range = united(range, state->range(c));
+  }
+}
+
+void Executor::operator()(Loaded& event) {
+  s_.document = std::move(event.document);
+  s_.original = s_.saved = event.state;
+  for (const Coloring c : kMeasured) s_.run_range[static_cast<std::size_t>(c)] = event.state->range(c);
+  s_.undo.clear();
+  s_.history.clear();
+  s_.last_step.reset();
+  s_.last_run.reset();
+  s_.remaining = 0;
+  s_.selected_triangle.reset();
+  s_.worst_rank = 0;
+  s_.notes = std::move(event.notes);
+  s_.series = 0;
+  show(event.state);
+  if (s_.current->energy) {
+    const QualityReport& q = s_.current->quality();
+    s_.history.push_back({0, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
+  }
+  s_.activity = Activity::idle;
+  remember_recent(s_.document->path);
+  for (const std::string& note : s_.notes) say(MessageKind::warning, note);
+  // Settings may have changed while the file was read.
+  if (s_.current->energy) measure_energy_if_changed();
+}
+
+void Executor::operator()(EnergyMeasured& event) {
+  if (event.document != s_.document || !same_energy(event.current->settings, s_.smoothing)) return;
+  const auto with = [](const MeshStatePtr& state, std::shared_ptr<const EnergyState> energy) {
+    auto changed = std::make_shared<MeshState>(*state);
+    changed->energy = std::move(energy);
+    return changed;
+  };
+  const bool unsaved = s_.has_unsaved_changes();
+  if (event.original_geometry == s_.original->geometry) s_.original = with(s_.original, event.original);
+  if (event.current_geometry != s_.current->geometry) {
+    measure_energy_if_changed();
+    return;
+  }
+  s_.current = with(s_.current, event.current);
+  if (!unsaved) s_.saved = s_.current;
+  s_.run_range[static_cast<std::size_t>(Coloring::energy)] =
+      united(event.original->range, event.current->range);
+  ++s_.series;
+  if (s_.history.size() <= 1 && s_.current->geometry == s_.original->geometry) {
+    const QualityReport& q = s_.current->quality();
+    s_.history = {{s_.current->iteration, event.current->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series}};
+  }
+}
+
+void Executor::operator()(Iterated& event) {
+  s_.history.insert(s_.history.end(), event.rows.begin(), event.rows.end());
+  s_.last_step = event.step;
+  if (event.state) show(event.state);
+}
+
+void Executor::operator()(RunEnded& event) {
+  const bool cancelled = event.result.stopped == StopReason::cancelled;
+  s_.remaining = cancelled && event.result.iterations < s_.run_iterations_
+                     ? s_.run_iterations_ - event.result.iterations
+                     : 0;
+  s_.last_run = event.result;
+  end_run();
+}
+
+void Executor::operator()(RunFailed& event) {
+  say(MessageKind::error, event.text);
+  s_.remaining = 0;
+  end_run();
+}
+
+void Executor::operator()(Saved& event) {
+  s_.saved = event.state;
+  s_.activity = Activity::idle;
+  say(MessageKind::info, "Saved " + event.path.string());
+  for (const std::string& note : event.notes) say(MessageKind::warning, note);
+  remember_recent(event.path);
+}
+
+void Executor::operator()(Failed& event) {
+  say(MessageKind::error, event.text);
+  if (s_.activity != Activity::running) s_.activity = Activity::idle;
+}
+
+void execute(Session& session, const Command& command) { std::visit(Executor(session), command); }
+
+void finish(Session& session) {
+  while (true) {
+    execute(session, Collect{});
+    if (!session.engine.busy()) break;
+    session.engine.wait();
+  }
+  execute(session, Collect{});
+}
+
+ValueRange Session::color_range() const {
+  const auto index = static_cast<std::size_t>(view.coloring);
+  switch (view.range_mode) {
+    case RangeMode::run:
+      return run_range[index];
+    case RangeMode::current:
+      return current ? current->range(view.coloring) : ValueRange{};
+    case RangeMode::typed:
+      break;
+  }
+  return view.typed[index];
+}
+
+}  // namespace isorelax::model

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+
+#include "model/engine.h"
+
+namespace isorelax::model {
+
+/// Opens a file: Loaded or Failed.
+[[nodiscard]] Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings);
+
+/// Measures the energy of two states under new settings: EnergyMeasured or Failed.
+[[nodiscard]] Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr original,
+                                     MeshStatePtr current);
+
+struct RunRequest {
+  DocumentPtr document;
+  SmoothingSettings settings;
+  MeshStatePtr start;
+  unsigned iterations = 1;
+  unsigned series = 0;  ///< for the rows
+};
+/// Runs the smoother from a state: Iterated as often as the view keeps up, then RunEnded; or RunFailed.
+[[nodiscard]] Engine::Job run_job(RunRequest request);
+
+/// Writes the document with a state's positions: Saved or Failed.
+[[nodiscard]] Engine::Job save_job(DocumentPtr document, MeshStatePtr state, std::filesystem::path path);
+
+}  // namespace isorelax::model

@@ -1,0 +1,170 @@
+#include "model/mesh_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "energy/triangle_energy.h"
+#include "mesh/parallel.h"
+#include "quality/triangle_metrics.h"
+
+namespace isorelax::model {
+namespace {
+
+constexpr HistogramRange kAngleBins{0, 60, 30};
+constexpr HistogramRange kAreaBins{0, 3, 30};
+
+std::vector<double> to_double(std::span<const float> values) { return {values.begin(), values.end()}; }
+
+}  // namespace
+
+std::span<const float> MeshState::values(Coloring coloring) const {
+  switch (coloring) {
+    case Coloring::none:
+      break;
+    case Coloring::min_angle:
+      return geometry->min_angle_values;
+    case Coloring::max_angle:
+      return geometry->max_angle_values;
+    case Coloring::relative_area:
+      return geometry->area_values;
+    case Coloring::energy:
+      if (energy) return energy->values;
+      break;
+  }
+  return {};
+}
+
+ValueRange MeshState::range(Coloring coloring) const {
+  switch (coloring) {
+    case Coloring::none:
+      break;
+    case Coloring::min_angle:
+      return geometry->min_angle_range;
+    case Coloring::max_angle:
+      return geometry->max_angle_range;
+    case Coloring::relative_area:
+      return geometry->area_range;
+    case Coloring::energy:
+      if (energy) return energy->range;
+      break;
+  }
+  return {};
+}
+
+std::size_t MeshState::bytes() const {
+  std::size_t total = sizeof(Vec3) * geometry->positions.size() +
+                      sizeof(float) * 3 * geometry->min_angle_values.size();
+  if (energy) total += sizeof(float) * energy->values.size();
+  return total;
+}
+
+std::shared_ptr<const Geometry> measure_geometry(const Document& document, std::vector<Vec3> positions) {
+  const auto& triangles = document.mesh().triangles;
+  auto geometry = std::make_shared<Geometry>();
+  geometry->positions = std::move(positions);
+  const std::span<const Vec3> x = geometry->positions;
+  geometry->min_angle_values.resize(triangles.size());
+  geometry->max_angle_values.resize(triangles.size());
+  geometry->area_values.resize(triangles.size());
+  std::vector<double> areas(block_count(triangles.size()));
+  parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto m = measure_triangle(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
+      geometry->min_angle_values[t] = static_cast<float>(m.min_angle_deg);
+      geometry->max_angle_values[t] = static_cast<float>(m.max_angle_deg);
+      geometry->area_values[t] = static_cast<float>(m.area);
+      sum += m.area;
+    }
+    areas[begin / kBlockSize] = sum;
+  });
+  double area = 0;
+  for (const double a : areas) area += a;
+  const auto scale = static_cast<float>(area > 0 ? static_cast<double>(triangles.size()) / area : 0);
+  for (float& a : geometry->area_values) a *= scale;
+  geometry->min_angle_range = finite_range(geometry->min_angle_values);
+  geometry->max_angle_range = finite_range(geometry->max_angle_values);
+  geometry->area_range = finite_range(geometry->area_values);
+  geometry->quality = measure_quality(x, triangles, document.topology);
+  geometry->min_angle = make_histogram(to_double(geometry->min_angle_values), kAngleBins);
+  geometry->relative_area = make_histogram(to_double(geometry->area_values), kAreaBins);
+  return geometry;
+}
+
+std::shared_ptr<const EnergyState> measure_energy(const SmoothingProblem& problem,
+                                                  const SmoothingSettings& settings,
+                                                  std::span<const Vec3> positions) {
+  auto energy = std::make_shared<EnergyState>();
+  energy->settings = settings;
+  const auto& triangles = problem.triangles;
+  energy->values.resize(triangles.size());
+  std::vector<double> sums(block_count(triangles.size()));
+  parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::array<Vec3, 3> x{positions[triangles[t][0]], positions[triangles[t][1]],
+                                  positions[triangles[t][2]]};
+      double value = std::numeric_limits<double>::infinity();
+      if (area_vector(x[0], x[1], x[2]).norm() > 0)
+        value = evaluate_energy(x, problem.reference[static_cast<Index>(t)], problem.weights).energy;
+      energy->values[t] = static_cast<float>(value);
+      if (problem.treated[t] != 0) sum += value;
+    }
+    sums[begin / kBlockSize] = sum;
+  });
+  for (const double s : sums) energy->total += s;
+  energy->range = finite_range(energy->values);
+  return energy;
+}
+
+WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  // Cotangents order angles as well as the angles do: cot = dot / |cross|.
+  struct Extremes {
+    double largest = -std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
+  };
+  std::vector<Extremes> blocks(block_count(triangles.size()));
+  parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {
+    Extremes found;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Vec3& a = positions[triangles[t][0]];
+      const Vec3& b = positions[triangles[t][1]];
+      const Vec3& c = positions[triangles[t][2]];
+      const Vec3 ab = b - a;
+      const Vec3 bc = c - b;
+      const Vec3 ca = a - c;
+      const double cross = ab.cross(bc).norm();
+      for (const double dot : {-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)}) {
+        // A triangle without area counts as 0 and 180 degrees, as in the report.
+        const double cot = cross > 0 ? dot / cross : std::numeric_limits<double>::infinity();
+        found.largest = std::max(found.largest, cot);
+        found.smallest = std::min(found.smallest, cross > 0 ? cot : -cot);
+      }
+    }
+    blocks[begin / kBlockSize] = found;
+  });
+  Extremes all;
+  for (const Extremes& b : blocks) {
+    all.largest = std::max(all.largest, b.largest);
+    all.smallest = std::min(all.smallest, b.smallest);
+  }
+  const auto degrees = [](double cot) { return std::atan2(1.0, cot) * 180 / std::numbers::pi; };
+  return {degrees(all.largest), degrees(all.smallest)};
+}
+
+ValueRange finite_range(std::span<const float> values) {
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  for (const float v : values) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  if (low > high) return {};
+  if (low == high) return {low - 0.5, high + 0.5};
+  return {low, high};
+}
+
+}  // namespace isorelax::model

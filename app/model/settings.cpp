@@ -1,0 +1,51 @@
+#include "model/settings.h"
+
+#include <cmath>
+#include <string>
+
+namespace isorelax::model {
+
+bool same_energy(const SmoothingSettings& a, const SmoothingSettings& b) {
+  return a.mu_a == b.mu_a && a.reference == b.reference &&
+         (a.reference != ReferenceKind::edge_length || a.edge_length == b.edge_length) &&
+         (a.reference != ReferenceKind::file || a.reference_file == b.reference_file);
+}
+
+std::string_view title(Coloring coloring) {
+  switch (coloring) {
+    case Coloring::none:
+      return "None";
+    case Coloring::min_angle:
+      return "Min angle";
+    case Coloring::max_angle:
+      return "Max angle";
+    case Coloring::relative_area:
+      return "Area / mean";
+    case Coloring::energy:
+      return "Energy";
+  }
+  return "";
+}
+
+std::string_view unit(Coloring coloring) {
+  switch (coloring) {
+    case Coloring::min_angle:
+    case Coloring::max_angle:
+      return "deg";
+    case Coloring::relative_area:
+      return "x mean";
+    case Coloring::none:
+    case Coloring::energy:
+      return "";
+  }
+  return "";
+}
+
+std::string describe_mu(double mu_a) {
+  const int area = static_cast<int>(std::lround(100 * mu_a));
+  if (area <= 0) return "angles only, areas may differ";
+  if (area >= 100) return "areas only, angles do not count";
+  return "shape " + std::to_string(100 - area) + " %, area " + std::to_string(area) + " %";
+}
+
+}  // namespace isorelax::model

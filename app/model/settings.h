@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "smoothing/problem.h"
+
+namespace isorelax::model {
+
+/// Which reference triangles are asked for; the edge length or the file stands beside it in SmoothingSettings.
+enum class ReferenceKind : std::uint8_t { mean_area, edge_length, initial, file };
+
+/// Which creases are kept: those of the library's own thresholds, none, or those that turn by a given angle.
+enum class FeatureRule : std::uint8_t { automatic, none, angle };
+
+/// What a run does. Every field has an option of `isorelax smooth`.
+struct SmoothingSettings {
+  double mu_a = 0;  ///< weight of the area term, 0..1; the shape term has 1 - mu_a
+  ReferenceKind reference = ReferenceKind::mean_area;
+  double edge_length = 1;      ///< length units; used with ReferenceKind::edge_length
+  std::string reference_file;  ///< used with ReferenceKind::file
+  BoundaryRule boundary = BoundaryRule::fixed;
+  FeatureRule features = FeatureRule::automatic;
+  double feature_deg = 30;  ///< used with FeatureRule::angle
+  unsigned iterations = 100;
+  double tolerance = 1e-6;  ///< relative; 0: only the iteration count stops the run
+
+  bool operator==(const SmoothingSettings&) const = default;
+};
+
+/// Whether the energy of a mesh is the same number under both settings.
+[[nodiscard]] bool same_energy(const SmoothingSettings& a, const SmoothingSettings& b);
+
+/// What the colours of the triangles say.
+enum class Coloring : std::uint8_t { none, min_angle, max_angle, relative_area, energy };
+inline constexpr std::size_t kColorings = 5;
+
+/// Where the ends of the colour scale come from.
+enum class RangeMode : std::uint8_t {
+  run,      ///< all states since the file was opened: colours of two iterations can be compared
+  current,  ///< the state that is shown
+  typed,    ///< two numbers
+};
+
+enum class Shading : std::uint8_t { flat, smooth };
+
+/// A closed interval of a coloured quantity.
+struct ValueRange {
+  double low = 0;
+  double high = 1;
+  bool operator==(const ValueRange&) const = default;
+};
+
+/// How the mesh is shown, apart from the camera.
+struct ViewSettings {
+  Coloring coloring = Coloring::min_angle;
+  RangeMode range_mode = RangeMode::run;
+  /// One typed range for each colouring; used with RangeMode::typed.
+  std::array<ValueRange, kColorings> typed{{{0, 1}, {0, 60}, {60, 180}, {0, 2}, {2, 4}}};
+  std::string color_map = "viridis";
+  bool reversed = false;
+  bool wire = true;
+  bool legend = true;
+  bool show_original = false;
+  Shading shading = Shading::flat;
+
+  bool operator==(const ViewSettings&) const = default;
+};
+
+/// "Min angle", "Energy", ...: a title for people.
+[[nodiscard]] std::string_view title(Coloring coloring);
+/// "deg" for angles, "x mean" for areas, empty where there is none.
+[[nodiscard]] std::string_view unit(Coloring coloring);
+/// What mu_a asks for, in words: "shape 70 %, area 30 %".
+[[nodiscard]] std::string describe_mu(double mu_a);
+
+}  // namespace isorelax::model
