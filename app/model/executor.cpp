@@ -181,8 +181,8 @@ void Executor::operator()(const SelectNextWorst& /*command*/) {
   const Coloring by = s_.view.coloring == Coloring::none ? Coloring::min_angle : s_.view.coloring;
   const auto values = s_.current->values(by);
   if (values.empty()) return;
-  const float sign = by == Coloring::min_angle ? 1.0F : -1.0F;  // smaller key: worse
-  using Key = std::pair<float, Index>;
+  const double sign = by == Coloring::min_angle ? 1 : -1;  // smaller key: worse
+  using Key = std::pair<double, Index>;
   const auto key = [&](Index t) { return Key{sign * values[t], t}; };
   std::optional<Key> best;
   for (Index t = 0; t < values.size(); ++t) {
@@ -238,6 +238,7 @@ void Executor::show(const MeshStatePtr& state) {
 void Executor::operator()(Loaded& event) {
   s_.document = std::move(event.document);
   s_.original = s_.saved = event.state;
+  s_.save_path.reset();
   for (const Coloring c : kMeasured) s_.run_range[static_cast<std::size_t>(c)] = event.state->range(c);
   s_.undo.clear();
   s_.history.clear();
@@ -307,6 +308,7 @@ void Executor::operator()(RunFailed& event) {
 
 void Executor::operator()(Saved& event) {
   s_.saved = event.state;
+  s_.save_path = event.path;
   s_.activity = Activity::idle;
   say(MessageKind::info, "Saved " + event.path.string());
   for (const std::string& note : event.notes) say(MessageKind::warning, note);

@@ -15,11 +15,9 @@ namespace {
 constexpr HistogramRange kAngleBins{0, 60, 30};
 constexpr HistogramRange kAreaBins{0, 3, 30};
 
-std::vector<double> to_double(std::span<const float> values) { return {values.begin(), values.end()}; }
-
 }  // namespace
 
-std::span<const float> MeshState::values(Coloring coloring) const {
+std::span<const double> MeshState::values(Coloring coloring) const {
   switch (coloring) {
     case Coloring::none:
       break;
@@ -55,8 +53,8 @@ ValueRange MeshState::range(Coloring coloring) const {
 
 std::size_t MeshState::bytes() const {
   std::size_t total = sizeof(Vec3) * geometry->positions.size() +
-                      sizeof(float) * 3 * geometry->min_angle_values.size();
-  if (energy) total += sizeof(float) * energy->values.size();
+                      sizeof(double) * 3 * geometry->min_angle_values.size();
+  if (energy) total += sizeof(double) * energy->values.size();
   return total;
 }
 
@@ -73,23 +71,23 @@ std::shared_ptr<const Geometry> measure_geometry(const Document& document, std::
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const auto m = measure_triangle(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
-      geometry->min_angle_values[t] = static_cast<float>(m.min_angle_deg);
-      geometry->max_angle_values[t] = static_cast<float>(m.max_angle_deg);
-      geometry->area_values[t] = static_cast<float>(m.area);
+      geometry->min_angle_values[t] = m.min_angle_deg;
+      geometry->max_angle_values[t] = m.max_angle_deg;
+      geometry->area_values[t] = m.area;
       sum += m.area;
     }
     areas[begin / kBlockSize] = sum;
   });
   double area = 0;
   for (const double a : areas) area += a;
-  const auto scale = static_cast<float>(area > 0 ? static_cast<double>(triangles.size()) / area : 0);
-  for (float& a : geometry->area_values) a *= scale;
+  const double scale = area > 0 ? static_cast<double>(triangles.size()) / area : 0;
+  for (double& a : geometry->area_values) a *= scale;
   geometry->min_angle_range = finite_range(geometry->min_angle_values);
   geometry->max_angle_range = finite_range(geometry->max_angle_values);
   geometry->area_range = finite_range(geometry->area_values);
   geometry->quality = measure_quality(x, triangles, document.topology);
-  geometry->min_angle = make_histogram(to_double(geometry->min_angle_values), kAngleBins);
-  geometry->relative_area = make_histogram(to_double(geometry->area_values), kAreaBins);
+  geometry->min_angle = make_histogram(geometry->min_angle_values, kAngleBins);
+  geometry->relative_area = make_histogram(geometry->area_values, kAreaBins);
   return geometry;
 }
 
@@ -109,7 +107,7 @@ std::shared_ptr<const EnergyState> measure_energy(const SmoothingProblem& proble
       double value = std::numeric_limits<double>::infinity();
       if (area_vector(x[0], x[1], x[2]).norm() > 0)
         value = evaluate_energy(x, problem.reference[static_cast<Index>(t)], problem.weights).energy;
-      energy->values[t] = static_cast<float>(value);
+      energy->values[t] = value;
       if (problem.treated[t] != 0) sum += value;
     }
     sums[begin / kBlockSize] = sum;
@@ -154,10 +152,10 @@ WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triang
   return {degrees(all.largest), degrees(all.smallest)};
 }
 
-ValueRange finite_range(std::span<const float> values) {
-  float low = std::numeric_limits<float>::infinity();
-  float high = -low;
-  for (const float v : values) {
+ValueRange finite_range(std::span<const double> values) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double v : values) {
     if (!std::isfinite(v)) continue;
     low = std::min(low, v);
     high = std::max(high, v);

@@ -20,7 +20,7 @@ struct Geometry {
   Histogram min_angle;      ///< degrees, 0..60 in bins of 2
   Histogram relative_area;  ///< area over the mean area, 0..3 in bins of 0.1
   // One value per triangle, in the units of the colouring of the same name.
-  std::vector<float> min_angle_values, max_angle_values, area_values;
+  std::vector<double> min_angle_values, max_angle_values, area_values;
   ValueRange min_angle_range, max_angle_range, area_range;
 };
 
@@ -28,7 +28,7 @@ struct Geometry {
 struct EnergyState {
   SmoothingSettings settings;
   double total = 0;           ///< over the triangles that a run treats
-  std::vector<float> values;  ///< E of each triangle; infinite where it has no area
+  std::vector<double> values;  ///< E of each triangle; infinite where it has no area
   ValueRange range;
 };
 
@@ -41,7 +41,7 @@ struct MeshState {
   [[nodiscard]] std::span<const Vec3> positions() const { return geometry->positions; }
   [[nodiscard]] const QualityReport& quality() const { return geometry->quality; }
   /// The values behind a colouring; empty for Coloring::none and for an energy that is not known.
-  [[nodiscard]] std::span<const float> values(Coloring coloring) const;
+  [[nodiscard]] std::span<const double> values(Coloring coloring) const;
   /// Extent of values(coloring); {0, 1} when there are none.
   [[nodiscard]] ValueRange range(Coloring coloring) const;
   /// Memory held, in bytes.
@@ -67,6 +67,6 @@ struct WorstAngles {
 [[nodiscard]] WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 /// Smallest interval that holds the finite values; {0, 1} when there are none, and never of no length.
-[[nodiscard]] ValueRange finite_range(std::span<const float> values);
+[[nodiscard]] ValueRange finite_range(std::span<const double> values);
 
 }  // namespace isorelax::model

@@ -34,6 +34,9 @@ struct Session {
   MeshStatePtr current;
   MeshStatePtr saved;  ///< the state that the file on disk holds
 
+  /// Where the document was saved last; none until it was.
+  std::optional<std::filesystem::path> save_path;
+
   SmoothingSettings smoothing;
   ViewSettings view;
 

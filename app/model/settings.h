@@ -59,7 +59,7 @@ struct ViewSettings {
   RangeMode range_mode = RangeMode::run;
   /// One typed range for each colouring; used with RangeMode::typed.
   std::array<ValueRange, kColorings> typed{{{0, 1}, {0, 60}, {60, 180}, {0, 2}, {2, 4}}};
-  std::string color_map = "viridis";
+  std::string color_map;  ///< a name of the renderer's; empty: the colouring's own
   bool reversed = false;
   bool wire = true;
   bool legend = true;

@@ -1,0 +1,131 @@
+#include "ui/panels.h"
+
+namespace isorelax::ui {
+namespace {
+
+void set_coloring(const Ui& ui, model::Coloring coloring) {
+  model::ViewSettings view = ui.session.view;
+  view.coloring = coloring;
+  ui.command(model::SetView{view});
+}
+
+void perform_file_action(const Ui& ui, Action action) {
+  switch (action) {
+    case Action::open:
+      ask_for_file(ui, FilePurpose::open_mesh);
+      break;
+    case Action::save:
+      // The first time asks for a name: the opened file is not replaced by accident.
+      if (ui.session.save_path)
+        ui.command(model::SaveFile{*ui.session.save_path});
+      else if (ui.session.document)
+        ask_for_file(ui, FilePurpose::save_mesh);
+      break;
+    case Action::save_as:
+      if (ui.session.document) ask_for_file(ui, FilePurpose::save_mesh);
+      break;
+    case Action::save_picture:
+      ask_for_file(ui, FilePurpose::save_picture);
+      break;
+    case Action::quit:
+      if (ui.session.has_unsaved_changes()) {
+        ui.state.pending = PendingQuit{};
+        ui.state.ask_unsaved = true;
+      } else {
+        ui.request(Quit{});
+      }
+      break;
+    case Action::copy_command_line:
+      ImGui::SetClipboardText(model::command_line(ui.session).c_str());
+      ui.command(model::CopyCommandLine{});
+      break;
+    case Action::undo:
+      ui.command(model::Undo{});
+      break;
+    case Action::redo:
+      ui.command(model::Redo{});
+      break;
+    default:
+      break;
+  }
+}
+
+void perform_view_action(const Ui& ui, Action action) {
+  model::ViewSettings view = ui.session.view;
+  switch (action) {
+    case Action::frame:
+      ui.request(FrameView{});
+      break;
+    case Action::wire:
+      view.wire = !view.wire;
+      ui.command(model::SetView{view});
+      break;
+    case Action::shading:
+      view.shading = view.shading == model::Shading::flat ? model::Shading::smooth : model::Shading::flat;
+      ui.command(model::SetView{view});
+      break;
+    case Action::color_none:
+      set_coloring(ui, model::Coloring::none);
+      break;
+    case Action::color_min_angle:
+      set_coloring(ui, model::Coloring::min_angle);
+      break;
+    case Action::color_max_angle:
+      set_coloring(ui, model::Coloring::max_angle);
+      break;
+    case Action::color_area:
+      set_coloring(ui, model::Coloring::relative_area);
+      break;
+    case Action::color_energy:
+      set_coloring(ui, model::Coloring::energy);
+      break;
+    case Action::hide_panels:
+      ui.state.panels_hidden = !ui.state.panels_hidden;
+      break;
+    case Action::help:
+      ui.state.help_wanted = true;
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+void perform(const Ui& ui, Action action) {
+  switch (action) {
+    case Action::run_pause:
+      if (ui.session.is_running())
+        ui.command(model::Pause{});
+      else
+        ui.command(model::Run{});
+      break;
+    case Action::step:
+      ui.command(model::Step{});
+      break;
+    case Action::step_back:
+      ui.command(model::StepBack{});
+      break;
+    case Action::reset:
+      ui.command(model::Reset{});
+      break;
+    case Action::next_worst:
+      ui.command(model::SelectNextWorst{});
+      ui.request(FlyToSelection{});
+      break;
+    default:
+      perform_file_action(ui, action);
+      perform_view_action(ui, action);
+  }
+}
+
+void open_file(const Ui& ui, const std::filesystem::path& path) {
+  if (ui.session.has_unsaved_changes()) {
+    ui.state.pending = path;
+    ui.state.ask_unsaved = true;
+  } else {
+    ui.command(model::OpenFile{path});
+  }
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+bool begin_dialog(const Ui& ui, const char* name, float width) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * display.x, 0.5F * display.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(width, display.x - ui.px(32)), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(22), ui.px(18)});
+  const bool open = ImGui::BeginPopupModal(name, nullptr,
+                                           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                               ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PopStyleVar();
+  return open;
+}
+
+bool escape_pressed() { return ImGui::IsKeyPressed(static_cast<int>(Key::escape), false); }
+
+void draw_shortcut_group(const Ui& ui, std::string_view group) {
+  text_in(ui.fonts.heading, color::kAccent, group);
+  for (const Shortcut& shortcut : shortcuts()) {
+    if (shortcut.group != group) continue;
+    text_in(ui.fonts.text, color::kText, shortcut.keys);
+    ImGui::SameLine(ImGui::GetColumnOffset() + ui.px(118));
+    text_in(ui.fonts.text, color::kTextDim, shortcut.text);
+  }
+  ImGui::Dummy({0, ui.px(4)});
+}
+
+void draw_pointer_help(const Ui& ui) {
+  constexpr std::pair<const char*, const char*> kLines[]{
+      {"Drag", "Orbit; a planar mesh pans"},
+      {"Middle drag, Shift", "Pan"},
+      {"Wheel", "Zoom to the pointer"},
+      {"Tab, Shift+Tab", "To the next control and back"},
+      {"Arrows, Space, Enter", "Use the control with the focus"},
+      {"Escape", "Leave the controls, close a dialog"},
+      {"Drop a file", "Open it"},
+  };
+  text_in(ui.fonts.heading, color::kAccent, "Pointer and focus");
+  for (const auto& [keys, text] : kLines) {
+    text_in(ui.fonts.text, color::kText, keys);
+    ImGui::SameLine(ImGui::GetColumnOffset() + ui.px(150));
+    text_in(ui.fonts.text, color::kTextDim, text);
+  }
+}
+
+// After the answer: what was waiting happens.
+void go_on(const Ui& ui) {
+  if (std::holds_alternative<PendingQuit>(ui.state.pending)) ui.request(Quit{});
+  if (const auto* path = std::get_if<std::filesystem::path>(&ui.state.pending)) ui.command(model::OpenFile{*path});
+  ui.state.pending = std::monostate{};
+}
+
+}  // namespace
+
+void draw_help(const Ui& ui) {
+  if (ui.state.help_wanted) ImGui::OpenPopup("help");
+  ui.state.help_wanted = false;
+  if (!begin_dialog(ui, "help", ui.px(760))) return;
+  text_in(ui.fonts.title, color::kText, "Keys");
+  ImGui::Dummy({0, ui.px(4)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(4)});
+  ImGui::Columns(2, "keys", false);
+  draw_shortcut_group(ui, "Smoothing");
+  draw_shortcut_group(ui, "View");
+  ImGui::NextColumn();
+  draw_shortcut_group(ui, "File and edit");
+  draw_pointer_help(ui);
+  ImGui::Columns(1);
+  ImGui::PopStyleVar();
+  mark_area(ui, "help-page", {ImGui::GetWindowPos(), {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
+                                                      ImGui::GetWindowPos().y + ImGui::GetWindowHeight()}});
+  ImGui::Dummy({0, ui.px(4)});
+  ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ui.px(22 + 98));
+  if (button(ui, "help-close", "Close", {.look = ButtonLook::accent, .width = ui.px(98)}) || escape_pressed())
+    ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void draw_unsaved_question(const Ui& ui) {
+  if (ui.state.ask_unsaved) ImGui::OpenPopup("unsaved");
+  ui.state.ask_unsaved = false;
+  // A save that was asked for here has ended well: go on with what waited for it.
+  if (ui.state.quit_after_save && ui.session.activity == model::Activity::idle) {
+    ui.state.quit_after_save = false;
+    if (!ui.session.has_unsaved_changes()) go_on(ui);
+  }
+  if (!begin_dialog(ui, "unsaved", ui.px(440))) return;
+  text_in(ui.fonts.title, color::kText, "Keep the smoothed mesh?");
+  ImGui::PushTextWrapPos(0);
+  text_in(ui.fonts.text, color::kTextDim, "Its positions are in no file yet. Without saving they are lost.");
+  ImGui::PopTextWrapPos();
+  ImGui::Dummy({0, ui.px(6)});
+  if (button(ui, "unsaved-cancel", "Cancel", {.width = ui.px(98)}) || escape_pressed()) {
+    ui.state.pending = std::monostate{};
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(22 + 98 + 8 + 118));
+  if (button(ui, "unsaved-discard", "Do not save", {.width = ui.px(118)})) {
+    go_on(ui);
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (button(ui, "unsaved-save", "Save", {.look = ButtonLook::accent, .width = ui.px(98)})) {
+    ImGui::CloseCurrentPopup();
+    ui.state.quit_after_save = ui.session.save_path.has_value();
+    if (!ui.session.save_path) ui.state.pending = std::monostate{};
+    perform(ui, Action::save);
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "ui/ui_state.h"
+
+namespace isorelax::ui {
+
+/// Where everything is in a frame, in pixels.
+struct Layout {
+  Rect top, left, viewport, right, status;
+};
+/// The layout for a display of this size; hidden panels are empty.
+[[nodiscard]] Layout make_layout(const UiState& state, ImVec2 display, float scale);
+
+/// A texture with the picture of the mesh, first row at the bottom; null: none yet.
+struct ViewportImage {
+  ImTextureID texture = nullptr;
+};
+
+void draw_top_bar(const Ui& ui, const Rect& rect);
+void draw_settings_panel(const Ui& ui, const Rect& rect);
+void draw_quality_panel(const Ui& ui, const Rect& rect);
+void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image);
+void draw_status_bar(const Ui& ui, const Rect& rect);
+void draw_splitters(const Ui& ui, const Layout& layout);
+void draw_help(const Ui& ui);
+void draw_file_browser(const Ui& ui);
+void draw_unsaved_question(const Ui& ui);
+
+/// Shows the file browser for a purpose, at the folder that suits it.
+void ask_for_file(const Ui& ui, FilePurpose purpose);
+/// Opens a file, after asking what becomes of unsaved changes.
+void open_file(const Ui& ui, const std::filesystem::path& path);
+/// Carries out what a shortcut or a button asks for.
+void perform(const Ui& ui, Action action);
+
+/// Begins a panel: a window that fills a rectangle and cannot be moved. Ends with ImGui::End().
+void begin_panel(const char* name, const Rect& rect, ImGuiWindowFlags flags = 0);
+
+/// The last run in one sentence, with how many vertices were limited by what.
+[[nodiscard]] std::string describe_last_run(const model::Session& session);
+
+}  // namespace isorelax::ui

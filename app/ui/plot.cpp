@@ -1,0 +1,221 @@
+#include "ui/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+constexpr ImU32 kGridLine = IM_COL32(255, 255, 255, 16);
+constexpr ImU32 kAxis = IM_COL32(255, 255, 255, 40);
+constexpr ImU32 kOutline = IM_COL32(190, 197, 210, 200);
+
+std::string short_number(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3)) return number_text("%.0e", value);
+  if (magnitude >= 1e4) return number_text("%.0fk", value / 1e3);
+  return number_text("%.4g", value);
+}
+
+// The rectangle of a plot's data, and the way from values to pixels.
+struct Frame {
+  Rect area;
+  double x0 = 0, x1 = 1, y0 = 0, y1 = 1;
+
+  [[nodiscard]] float x(double value) const {
+    return area.low.x + static_cast<float>((value - x0) / (x1 - x0)) * area.width();
+  }
+  [[nodiscard]] float y(double value) const {
+    return area.high.y - static_cast<float>(std::clamp((value - y0) / (y1 - y0), 0.0, 1.0)) * area.height();
+  }
+};
+
+struct KeyEntry {
+  std::string_view label;
+  ImU32 color;
+};
+
+void small_text(const Ui& ui, ImVec2 at, ImU32 color, const std::string& text) {
+  ImGui::GetWindowDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {std::floor(at.x), std::floor(at.y)},
+                                      color, text.c_str());
+}
+
+float small_width(const Ui& ui, std::string_view text) {
+  return ui.fonts.small
+      ->CalcTextSizeA(ui.fonts.small->FontSize, std::numeric_limits<float>::max(), 0, text.data(),
+                      text.data() + text.size())
+      .x;
+}
+
+// Title at the left, key at the right; reserves the plot's place. Returns the data's rectangle.
+Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title, std::span<const KeyEntry> key,
+                float height) {
+  const float line = ui.fonts.small->FontSize;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::GetWindowDrawList()->AddText(ui.fonts.heading, line, low, color::kTextDim, title.c_str());
+  float x = low.x + width;
+  for (auto entry = key.rbegin(); entry != key.rend(); ++entry) {
+    x -= small_width(ui, entry->label);
+    small_text(ui, {x, low.y}, color::kTextDim, std::string(entry->label));
+    x -= ui.px(14);
+    ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + 0.5F * line - ui.px(1)},
+                                              {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry->color);
+    x -= ui.px(10);
+  }
+  const std::string id = "##plot-" + name;
+  ImGui::InvisibleButton(id.c_str(), {width, height});
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const Rect area{{low.x + ui.px(38), low.y + line + ui.px(8)}, {high.x - ui.px(4), high.y - line - ui.px(5)}};
+  mark_area(ui, name, area);
+  return area;
+}
+
+void draw_x_tick(const Ui& ui, const Frame& frame, double value, const std::string& text) {
+  const float x = frame.x(value);
+  const float width = small_width(ui, text);
+  const float at = std::clamp(x - 0.5F * width, frame.area.low.x - 0.5F * width, frame.area.high.x + ui.px(4) - width);
+  small_text(ui, {at, frame.area.high.y + ui.px(4)}, color::kTextFaint, text);
+  ImGui::GetWindowDrawList()->AddLine({x, frame.area.high.y}, {x, frame.area.high.y + ui.px(3)}, kAxis);
+}
+
+void draw_y_tick(const Ui& ui, const Frame& frame, double value, const std::string& text) {
+  const float y = std::floor(frame.y(value)) + 0.5F;
+  ImGui::GetWindowDrawList()->AddLine({frame.area.low.x, y}, {frame.area.high.x, y}, kGridLine);
+  small_text(ui, {frame.area.low.x - ui.px(6) - small_width(ui, text), y - 0.55F * ui.fonts.small->FontSize},
+             color::kTextFaint, text);
+}
+
+void read_out(const Ui& ui, std::string_view first, std::span<const std::pair<std::string, ImU32>> lines) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(3)});
+  ImGui::BeginTooltip();
+  text_in(ui.fonts.small, color::kTextDim, first);
+  for (const auto& [text, color] : lines) text_in(ui.fonts.text, color, text);
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar(2);
+}
+
+void draw_line(ImDrawList& draw, const Frame& frame, const Line& line, PlotScale scale, float width) {
+  const auto value = [&](float y) { return scale == PlotScale::logarithmic ? std::log10(std::max(1e-300, double{y})) : y; };
+  std::vector<ImVec2> piece;
+  const auto flush = [&] {
+    if (piece.size() > 1)
+      draw.AddPolyline(piece.data(), static_cast<int>(piece.size()), line.color, ImDrawFlags_None, width);
+    else if (piece.size() == 1)
+      draw.AddCircleFilled(piece[0], 1.6F * width, line.color);
+    piece.clear();
+  };
+  for (std::size_t k = 0; k < line.points.size(); ++k) {
+    if (line.new_start[k]) flush();
+    const ImVec2 at{frame.x(line.points[k].x), frame.y(value(line.points[k].y))};
+    // Points that fall on one pixel column add nothing.
+    if (piece.empty() || at.x - piece.back().x >= 0.5F || k + 1 == line.points.size()) piece.push_back(at);
+  }
+  flush();
+}
+
+void hover_lines(const Ui& ui, const Frame& frame, const LinePlot& plot) {
+  if (!ImGui::IsItemHovered() || plot.lines.empty() || plot.lines.front().points.empty()) return;
+  const auto& points = plot.lines.front().points;
+  const float x = ImGui::GetIO().MousePos.x;
+  const auto nearest = std::ranges::min_element(
+      points, {}, [&](const ImVec2& p) { return std::abs(frame.x(p.x) - x); });
+  const auto index = static_cast<std::size_t>(nearest - points.begin());
+  const float at = std::floor(frame.x(nearest->x)) + 0.5F;
+  ImGui::GetWindowDrawList()->AddLine({at, frame.area.low.y}, {at, frame.area.high.y}, kAxis);
+  std::vector<std::pair<std::string, ImU32>> lines;
+  for (const Line& line : plot.lines)
+    lines.emplace_back(line.label + "  " + number_text(plot.format.c_str(), line.points[index].y) + plot.unit,
+                       line.color);
+  read_out(ui, "Iteration " + number_text("%.0f", nearest->x), lines);
+}
+
+}  // namespace
+
+std::vector<double> round_ticks(double low, double high, int wanted) {
+  std::vector<double> ticks;
+  if (!(high > low) || wanted < 1) return ticks;
+  const double raw = (high - low) / wanted;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = 10 * power;
+  for (const double m : {1.0, 2.0, 5.0})
+    if (m * power >= raw * (1 - 1e-9)) {
+      step = m * power;
+      break;
+    }
+  for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) ticks.push_back(n * step);
+  return ticks;
+}
+
+void draw_bars(const Ui& ui, const Bars& bars, float height) {
+  constexpr ImU32 kFill = IM_COL32(242, 140, 79, 190);
+  const std::array key{KeyEntry{"current", kFill}, KeyEntry{"original", kOutline}};
+  Frame frame{begin_plot(ui, bars.name, bars.title, key, height), bars.low, bars.high, 0, 1};
+  if (frame.area.height() < 8 || bars.now.empty()) return;
+  frame.y1 = static_cast<double>(std::max<std::size_t>(
+      {1, *std::ranges::max_element(bars.now), *std::ranges::max_element(bars.before)}));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const double t : round_ticks(0, frame.y1, 2)) draw_y_tick(ui, frame, t, short_number(t));
+  for (const double t : bars.ticks) draw_x_tick(ui, frame, t, short_number(t) + (t == bars.ticks.back() ? bars.unit : ""));
+  const double bin = (bars.high - bars.low) / static_cast<double>(bars.now.size());
+  std::vector<ImVec2> outline{{frame.area.low.x, frame.area.high.y}};
+  for (std::size_t k = 0; k < bars.now.size(); ++k) {
+    const double from = bars.low + bin * static_cast<double>(k);
+    const float x0 = frame.x(from);
+    const float x1 = frame.x(from + bin);
+    if (bars.now[k] > 0)
+      draw.AddRectFilled({x0 + 0.5F, std::min(frame.y(static_cast<double>(bars.now[k])), frame.area.high.y - 1)},
+                         {x1 - 0.5F, frame.area.high.y}, kFill);
+    const float y = frame.y(static_cast<double>(bars.before[k]));
+    outline.insert(outline.end(), {{x0, y}, {x1, y}});
+  }
+  outline.push_back({frame.area.high.x, frame.area.high.y});
+  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()), kOutline, ImDrawFlags_None, ui.px(1.25F));
+  draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
+  if (!ImGui::IsItemHovered()) return;
+  const double at = (ImGui::GetIO().MousePos.x - frame.area.low.x) / frame.area.width();
+  if (at < 0 || at >= 1) return;
+  const auto k = static_cast<std::size_t>(at * static_cast<double>(bars.now.size()));
+  const double from = bars.low + bin * static_cast<double>(k);
+  std::string range = short_number(from) + " to " + short_number(from + bin) + bars.unit;
+  if (k + 1 == bars.now.size() && bars.above_now + bars.above_before > 0)
+    range += ", beyond: " + count_text(bars.above_now) + " (was " + count_text(bars.above_before) + ")";
+  const std::array lines{std::pair{"current  " + count_text(bars.now[k]), color::kAccent},
+                         std::pair{"original  " + count_text(bars.before[k]), color::kText}};
+  read_out(ui, range, lines);
+}
+
+void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
+  std::vector<KeyEntry> key;
+  if (plot.lines.size() > 1)
+    for (const Line& line : plot.lines) key.push_back({line.label, line.color});
+  Frame frame{begin_plot(ui, plot.name, plot.title, key, height), 0, 1, plot.low, plot.high};
+  if (frame.area.height() < 8) return;
+  double last = 10;
+  for (const Line& line : plot.lines)
+    if (!line.points.empty()) last = std::max(last, static_cast<double>(line.points.back().x));
+  frame.x1 = last;
+  const bool logarithmic = plot.scale == PlotScale::logarithmic;
+  if (logarithmic) {
+    frame.y0 = std::log10(plot.low);
+    frame.y1 = std::log10(plot.high);
+  }
+  std::vector<double> ticks = plot.ticks;
+  if (ticks.empty() && !logarithmic) ticks = round_ticks(plot.low, plot.high, 3);
+  if (ticks.empty())
+    for (double e = std::ceil(frame.y0); e <= frame.y1; e += std::max(1.0, std::floor((frame.y1 - frame.y0) / 3)))
+      ticks.push_back(std::pow(10.0, e));
+  for (const double t : ticks) draw_y_tick(ui, frame, logarithmic ? std::log10(t) : t, short_number(t) + plot.unit);
+  for (const double t : round_ticks(0, frame.x1, 4))
+    if (t == std::floor(t)) draw_x_tick(ui, frame, t, short_number(t));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
+  for (const Line& line : plot.lines) draw_line(draw, frame, line, plot.scale, ui.px(1.75F));
+  hover_lines(ui, frame, plot);
+}
+
+}  // namespace isorelax::ui

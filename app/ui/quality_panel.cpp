@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "smoothing/step_record.h"
+#include "ui/panels.h"
+#include "ui/plot.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+enum class Better : std::uint8_t { larger, smaller };
+
+struct Figure {
+  std::string_view label{};
+  std::string_view tip{};
+  double before = 0, now = 0;
+  const char* format = "%.2f";
+  std::string_view unit{};
+  Better better = Better::larger;
+};
+
+std::array<Figure, 9> figures(const model::MeshState& original, const model::MeshState& current) {
+  const QualityReport& a = original.quality();
+  const QualityReport& b = current.quality();
+  const double nothing = std::nan("");
+  return {{
+      {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f", "\xC2\xB0"},
+      {"Largest angle", "Largest angle of all triangles.", a.max_angle_deg, b.max_angle_deg, "%.2f", "\xC2\xB0",
+       Better::smaller},
+      {"Mean smallest", "Mean over the triangles of each one's smallest angle.", a.mean_min_angle_deg,
+       b.mean_min_angle_deg, "%.2f", "\xC2\xB0"},
+      {"Under 20\xC2\xB0", "Share of triangles with an angle under 20 degrees.", 100 * a.below_20_deg,
+       100 * b.below_20_deg, "%.2f", " %", Better::smaller},
+      {"Under 30\xC2\xB0", "Share of triangles with an angle under 30 degrees.", 100 * a.below_30_deg,
+       100 * b.below_30_deg, "%.2f", " %", Better::smaller},
+      {"Over 120\xC2\xB0", "Share of triangles with an angle over 120 degrees.", 100 * a.above_120_deg,
+       100 * b.above_120_deg, "%.2f", " %", Better::smaller},
+      {"Area spread", "Standard deviation of the areas over their mean.", a.area_std_over_mean, b.area_std_over_mean,
+       "%.3f", "", Better::smaller},
+      {"Inverted", "Triangles that lie upside down.", static_cast<double>(a.inverted),
+       static_cast<double>(b.inverted), "%.0f", "", Better::smaller},
+      {"Energy", "Sum of the energies of all treated triangles; what a run makes smaller.",
+       original.energy ? original.energy->total : nothing, current.energy ? current.energy->total : nothing, "%.6g",
+       "", Better::smaller},
+  }};
+}
+
+void right_aligned(const Ui& ui, const std::string& text, ImU32 color) {
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
+  text_in(ui.fonts.text, color, text);
+}
+
+void draw_figure(const Ui& ui, const Figure& f) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  text_in(ui.fonts.text, color::kTextDim, f.label);
+  tooltip(ui, f.tip);
+  const auto text = [&](double value) {
+    return number_text(f.format, value) + (std::isfinite(value) ? std::string(f.unit) : "");
+  };
+  ImGui::TableNextColumn();
+  right_aligned(ui, text(f.before), color::kTextDim);
+  ImGui::TableNextColumn();
+  // Compared as shown: a difference that cannot be read is none.
+  const bool same = text(f.before) == text(f.now);
+  const bool better = f.better == Better::larger ? f.now > f.before : f.now < f.before;
+  right_aligned(ui, text(f.now), same ? color::kText : better ? color::kBetter : color::kWorse);
+  mark_area(ui, "figure/" + std::string(f.label), {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+}
+
+void draw_table(const Ui& ui) {
+  if (!ImGui::BeginTable("quality", 3, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.1F);
+  ImGui::TableSetupColumn("original", ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableSetupColumn("current", ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  for (const char* title : {"original", "current"}) {
+    ImGui::TableNextColumn();
+    ImGui::PushFont(ui.fonts.small);
+    const float width = ImGui::CalcTextSize(title).x;
+    ImGui::PopFont();
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
+    text_in(ui.fonts.small, color::kTextFaint, title);
+  }
+  for (const Figure& f : figures(*ui.session.original, *ui.session.current)) draw_figure(ui, f);
+  ImGui::EndTable();
+}
+
+void draw_histograms(const Ui& ui, float height) {
+  const model::Geometry& before = *ui.session.original->geometry;
+  const model::Geometry& now = *ui.session.current->geometry;
+  draw_bars(ui, {.name = "angle-histogram", .title = "SMALLEST ANGLES", .unit = "\xC2\xB0",
+                 .now = now.min_angle.counts, .before = before.min_angle.counts, .low = now.min_angle.low,
+                 .high = now.min_angle.high, .ticks = {0, 15, 30, 45, 60}},
+            height);
+  draw_bars(ui, {.name = "area-histogram", .title = "AREAS OVER THE MEAN", .unit = "\xC3\x97",
+                 .now = now.relative_area.counts, .before = before.relative_area.counts, .low = now.relative_area.low,
+                 .high = now.relative_area.high, .ticks = {0, 1, 2, 3}, .above_now = now.relative_area.above,
+                 .above_before = before.relative_area.above},
+            height);
+}
+
+Line make_line(const std::vector<model::IterationRow>& rows, double model::IterationRow::*field, std::string label,
+               ImU32 color) {
+  Line line{std::move(label), color, {}, {}};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    line.points.emplace_back(static_cast<float>(rows[k].iteration), static_cast<float>(rows[k].*field));
+    line.new_start.push_back(k == 0 || rows[k].series != rows[k - 1].series);
+  }
+  return line;
+}
+
+void draw_history(const Ui& ui, float height) {
+  const auto& rows = ui.session.history;
+  LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g"};
+  energy.lines.push_back(make_line(rows, &model::IterationRow::energy, "energy", color::kAccent));
+  if (!rows.empty()) {
+    const auto [low, high] = std::ranges::minmax(rows, {}, &model::IterationRow::energy);
+    const bool wide = low.energy > 0 && high.energy > 20 * low.energy;
+    energy.scale = wide ? PlotScale::logarithmic : PlotScale::linear;
+    const double pad = std::max(0.08 * (high.energy - low.energy), 1e-3 * std::abs(high.energy));
+    energy.low = wide ? low.energy * 0.9 : low.energy - pad;
+    energy.high = wide ? high.energy * 1.1 : high.energy + pad;
+  }
+  draw_lines(ui, energy, height);
+  LinePlot angles{.name = "angle-plot", .title = "WORST ANGLES", .format = "%.2f", .unit = "\xC2\xB0", .low = 0,
+                  .high = 180, .ticks = {0, 60, 120, 180}};
+  angles.lines.push_back(make_line(rows, &model::IterationRow::min_angle_deg, "smallest", color::kAccent));
+  angles.lines.push_back(make_line(rows, &model::IterationRow::max_angle_deg, "largest", color::kSecond));
+  draw_lines(ui, angles, height);
+}
+
+}  // namespace
+
+void draw_quality_panel(const Ui& ui, const Rect& rect) {
+  begin_panel("quality", rect);
+  heading(ui, "QUALITY");
+  if (!ui.session.current) {
+    text_in(ui.fonts.text, color::kTextFaint, "No mesh is open.");
+    ImGui::End();
+    return;
+  }
+  draw_table(ui);
+  ImGui::Separator();
+  ImGui::Dummy({0, ui.px(1)});
+  // The four plots share what is left; a low window scrolls instead of squeezing them.
+  const float left = ImGui::GetContentRegionAvail().y - 3 * ImGui::GetStyle().ItemSpacing.y;
+  const float height = std::clamp(std::floor(left / 4), ui.px(96), ui.px(190));
+  draw_histograms(ui, height);
+  draw_history(ui, height);
+  ImGui::End();
+}
+
+std::string describe_last_run(const model::Session& session) {
+  if (!session.last_run) return {};
+  const RunResult& run = *session.last_run;
+  std::string text = run.stopped == StopReason::cancelled
+                         ? "Paused after " + std::to_string(run.iterations) + " iterations"
+                         : "Stopped after " + std::to_string(run.iterations) +
+                               (run.iterations == 1 ? " iteration: " : " iterations: ") +
+                               std::string(to_string(run.stopped));
+  if (!session.last_step) return text;
+  std::string limits;
+  for (unsigned bit = 0; bit < session.last_step->limits.size(); ++bit) {
+    const std::size_t count = session.last_step->limits[bit];
+    if (count == 0) continue;
+    limits += limits.empty() ? "" : ", ";
+    limits += count_text(count) + " " + std::string(limit_name(static_cast<Limit>(1U << bit)));
+  }
+  if (!limits.empty()) text += "  \xC2\xB7  limited: " + limits;
+  return text;
+}
+
+}  // namespace isorelax::ui

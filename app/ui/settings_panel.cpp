@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+using model::SmoothingSettings;
+
+// A change to the settings goes out as one command that names it.
+void change(const Ui& ui, const SmoothingSettings& settings, std::string label) {
+  if (settings != ui.session.smoothing) ui.command(model::SetSmoothing{settings, std::move(label)});
+}
+
+void end_edit_after_item(const Ui& ui) {
+  if (ImGui::IsItemDeactivated()) ui.command(model::EndEdit{});
+}
+
+void draw_mu(const Ui& ui) {
+  constexpr const char* kTip =
+      "Weight of the area term, 0 to 1; the shape term has the rest. 0 makes good angles and lets areas differ, "
+      "larger values even out the areas.";
+  SmoothingSettings settings = ui.session.smoothing;
+  auto mu = static_cast<float>(settings.mu_a);
+  row_label(ui, "Area \xCE\xBC\xE2\x82\x90", kTip);
+  if (ImGui::SliderFloat("##mu", &mu, 0, 0.95F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+    // The number that is shown is the number that is used.
+    settings.mu_a = std::round(100.0 * static_cast<double>(mu)) / 100;
+    change(ui, settings, "\xCE\xBC\xE2\x82\x90");
+  }
+  end_edit_after_item(ui);
+  mark(ui, "mu");
+  tooltip(ui, kTip);
+  ImGui::Dummy({0, 0});
+  ImGui::SameLine(ui.px(104));
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ui.px(6));
+  text_in(ui.fonts.small, color::kTextFaint, model::describe_mu(settings.mu_a));
+}
+
+void draw_reference(const Ui& ui) {
+  constexpr std::array<std::string_view, 4> kLabels{"Equilateral, mean area", "Equilateral, edge length",
+                                                    "Mesh as opened", "Another file"};
+  constexpr const char* kTip =
+      "The triangles that the mesh's ones ought to look like: equilateral ones, those of the opened mesh, or those of "
+      "a file with the same connectivity.";
+  SmoothingSettings settings = ui.session.smoothing;
+  row_label(ui, "Reference", kTip);
+  const int choice = combo(ui, "reference", kLabels, static_cast<int>(settings.reference));
+  tooltip(ui, kTip);
+  if (choice == static_cast<int>(model::ReferenceKind::file) && settings.reference_file.empty()) {
+    ask_for_file(ui, FilePurpose::reference);
+  } else if (choice >= 0) {
+    settings.reference = static_cast<model::ReferenceKind>(choice);
+    change(ui, settings, "Reference");
+  }
+  if (settings.reference == model::ReferenceKind::edge_length) {
+    row_label(ui, "Edge length", "Edge length of the reference triangles, in the units of the file.");
+    double length = settings.edge_length;
+    if (ImGui::InputDouble("##edge", &length, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) && length > 0) {
+      settings.edge_length = length;
+      change(ui, settings, "Edge length");
+    }
+    end_edit_after_item(ui);
+    mark(ui, "edge-length");
+  } else if (settings.reference == model::ReferenceKind::file) {
+    row_label(ui, "File", "A mesh with the same triangles; its positions give the reference.");
+    const std::string name = std::filesystem::path(settings.reference_file).filename().string();
+    if (button(ui, "reference-file", name, {.width = ImGui::GetContentRegionAvail().x}))
+      ask_for_file(ui, FilePurpose::reference);
+  }
+}
+
+void draw_boundary(const Ui& ui) {
+  constexpr std::array<std::string_view, 3> kLabels{"Fixed", "Slide", "Free"};
+  constexpr const char* kTip =
+      "What vertices on the border of the surface may do: stay, slide along the border, or move like all others.";
+  row_label(ui, "Boundary", kTip);
+  SmoothingSettings settings = ui.session.smoothing;
+  const int choice = segmented(ui, "boundary", kLabels, static_cast<int>(settings.boundary),
+                               ImGui::GetContentRegionAvail().x);
+  if (choice < 0) return;
+  settings.boundary = static_cast<BoundaryRule>(choice);
+  change(ui, settings, "Boundary");
+}
+
+void draw_features(const Ui& ui) {
+  constexpr std::array<std::string_view, 3> kLabels{"Auto", "None", "Angle"};
+  constexpr const char* kTip =
+      "Creases that are kept: found with the built-in thresholds, none, or all that turn by more than an angle.";
+  row_label(ui, "Features", kTip);
+  SmoothingSettings settings = ui.session.smoothing;
+  const int choice = segmented(ui, "features", kLabels, static_cast<int>(settings.features),
+                               ImGui::GetContentRegionAvail().x);
+  if (choice >= 0) {
+    settings.features = static_cast<model::FeatureRule>(choice);
+    change(ui, settings, "Features");
+  }
+  if (settings.features != model::FeatureRule::angle) return;
+  row_label(ui, "Crease angle", "Dihedral turn from which an edge is a crease, in degrees.");
+  auto angle = static_cast<float>(settings.feature_deg);
+  if (ImGui::SliderFloat("##feature-angle", &angle, 5, 120, "%.0f\xC2\xB0", ImGuiSliderFlags_AlwaysClamp)) {
+    settings.feature_deg = std::round(static_cast<double>(angle));
+    change(ui, settings, "Crease angle");
+  }
+  end_edit_after_item(ui);
+  mark(ui, "feature-angle");
+}
+
+void draw_iterations(const Ui& ui) {
+  SmoothingSettings settings = ui.session.smoothing;
+  row_label(ui, "Iterations", "How many steps a run may do.");
+  int iterations = static_cast<int>(settings.iterations);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(10), ui.px(6)});
+  if (ImGui::InputInt("##iterations", &iterations, 10, 100)) {
+    settings.iterations = static_cast<unsigned>(std::clamp(iterations, 1, 1000000));
+    change(ui, settings, "Iterations");
+  }
+  ImGui::PopStyleVar();
+  end_edit_after_item(ui);
+  mark(ui, "iterations");
+
+  constexpr std::array<std::string_view, 4> kLabels{"Off", "1e-4", "1e-6", "1e-8"};
+  constexpr std::array kTolerances{0.0, 1e-4, 1e-6, 1e-8};
+  constexpr const char* kTip =
+      "A run ends when the gradient, the decrease of the energy or the largest move has fallen below this share of its "
+      "start, of the energy, or of the mean edge length.";
+  row_label(ui, "Tolerance", kTip);
+  int chosen = 2;
+  for (int k = 0; k < 4; ++k)
+    if (kTolerances[static_cast<std::size_t>(k)] == settings.tolerance) chosen = k;
+  const int choice = segmented(ui, "tolerance", kLabels, chosen, ImGui::GetContentRegionAvail().x);
+  if (choice < 0) return;
+  settings.tolerance = kTolerances[static_cast<std::size_t>(choice)];
+  change(ui, settings, "Tolerance");
+}
+
+void draw_run_buttons(const Ui& ui) {
+  const model::Session& s = ui.session;
+  const bool running = s.is_running();
+  const float height = ui.px(40);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float gap = ui.px(8);
+  ImGui::Dummy({0, ui.px(2)});
+  const std::string run = running ? "Pause" : s.remaining > 0 ? "Continue" : "Run";
+  if (button(ui, "run", run, {.icon = running ? Icon::pause : Icon::run, .look = ButtonLook::accent, .width = width,
+                              .height = height, .enabled = running || s.can_smooth()}))
+    perform(ui, Action::run_pause);
+  tooltip(ui, running ? "Stop after this iteration." : "Smooth up to the number of iterations.",
+          keys_of(Action::run_pause));
+  const float half = std::floor(0.5F * (width - gap));
+  if (button(ui, "step", "Step", {.icon = Icon::step, .width = half, .height = height, .enabled = s.can_smooth()}))
+    perform(ui, Action::step);
+  tooltip(ui, "One iteration.", keys_of(Action::step));
+  ImGui::SameLine(0, gap);
+  const bool moved = s.current && s.current->geometry != s.original->geometry;
+  if (button(ui, "reset", "Reset", {.icon = Icon::reset, .width = width - gap - half, .height = height,
+                                    .enabled = moved}))
+    perform(ui, Action::reset);
+  tooltip(ui, "Back to the mesh as opened. Can be undone.", keys_of(Action::reset));
+  if (button(ui, "copy-command-line", "Copy as command line",
+             {.look = ButtonLook::quiet, .width = width, .enabled = s.document != nullptr}))
+    perform(ui, Action::copy_command_line);
+  tooltip(ui, "The same smoothing for a shell.", keys_of(Action::copy_command_line));
+}
+
+void draw_range(const Ui& ui, model::ViewSettings& view) {
+  constexpr std::array<std::string_view, 3> kLabels{"Run", "Current", "Typed"};
+  constexpr const char* kTip =
+      "The ends of the colour scale: fit for all iterations, so that colours can be compared; fit for the present state; "
+      "or typed. Values outside are grey.";
+  row_label(ui, "Range", kTip);
+  const int choice = segmented(ui, "range", kLabels, static_cast<int>(view.range_mode), ImGui::GetContentRegionAvail().x);
+  if (choice >= 0) view.range_mode = static_cast<model::RangeMode>(choice);
+  if (view.range_mode != model::RangeMode::typed) return;
+  model::ValueRange& typed = view.typed[static_cast<std::size_t>(view.coloring)];
+  row_label(ui, "From, to", "Both ends of the colour scale.");
+  std::array<float, 2> ends{static_cast<float>(typed.low), static_cast<float>(typed.high)};
+  if (ImGui::InputFloat2("##typed", ends.data(), "%.4g") && ends[0] < ends[1]) typed = {ends[0], ends[1]};
+  mark(ui, "typed-range");
+}
+
+void draw_display(const Ui& ui) {
+  constexpr std::array<std::string_view, 6> kMaps{"Automatic", "viridis", "cividis", "inferno", "magma", "blue-orange"};
+  model::ViewSettings view = ui.session.view;
+  draw_range(ui, view);
+  row_label(ui, "Colours", "A perceptually uniform colour map; Automatic takes the one that suits the quantity.");
+  const auto found = std::ranges::find(kMaps, view.color_map);
+  const int map = combo(ui, "color-map", kMaps, found == kMaps.end() ? 0 : static_cast<int>(found - kMaps.begin()));
+  if (map >= 0) view.color_map = map == 0 ? "" : std::string(kMaps[static_cast<std::size_t>(map)]);
+  ImGui::Dummy({0, 0});
+  ImGui::SameLine(ui.px(104));
+  ImGui::Checkbox("Reversed", &view.reversed);
+  mark(ui, "reversed");
+  ImGui::SameLine(0, ui.px(14));
+  ImGui::Checkbox("Legend", &view.legend);
+  mark(ui, "legend");
+  if (view != ui.session.view) ui.command(model::SetView{view});
+}
+
+}  // namespace
+
+void draw_settings_panel(const Ui& ui, const Rect& rect) {
+  begin_panel("settings", rect);
+  heading(ui, "SMOOTHING");
+  ImGui::BeginDisabled(ui.session.is_running());
+  draw_mu(ui);
+  draw_reference(ui);
+  draw_boundary(ui);
+  draw_features(ui);
+  draw_iterations(ui);
+  ImGui::EndDisabled();
+  draw_run_buttons(ui);
+  heading(ui, "COLOURS");
+  draw_display(ui);
+  ImGui::End();
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,62 @@
+#include "ui/shortcuts.h"
+
+#include <algorithm>
+#include <array>
+
+namespace isorelax::ui {
+namespace {
+
+constexpr Modifiers kPlain{};
+constexpr Modifiers kControl{.control = true};
+constexpr Modifiers kControlShift{.control = true, .shift = true};
+
+constexpr std::string_view kSmoothing = "Smoothing";
+constexpr std::string_view kView = "View";
+constexpr std::string_view kFile = "File and edit";
+
+constexpr std::array kShortcuts{
+    Shortcut{Key::space, kPlain, Action::run_pause, "Space", "Run or pause", kSmoothing},
+    Shortcut{Key::right, kPlain, Action::step, "Right", "One step", kSmoothing},
+    Shortcut{Key::left, kPlain, Action::step_back, "Left", "Back over the last step or run", kSmoothing},
+    Shortcut{Key::home, kPlain, Action::reset, "Home", "Reset to the mesh as opened", kSmoothing},
+    Shortcut{Key::n, kPlain, Action::next_worst, "N", "Fly to the next worst triangle", kSmoothing},
+    Shortcut{Key::c, kControlShift, Action::copy_command_line, "Ctrl+Shift+C", "Copy as command line", kSmoothing},
+    Shortcut{Key::digit1, kPlain, Action::color_min_angle, "1", "Colour by smallest angle", kView},
+    Shortcut{Key::digit2, kPlain, Action::color_max_angle, "2", "Colour by largest angle", kView},
+    Shortcut{Key::digit3, kPlain, Action::color_area, "3", "Colour by area", kView},
+    Shortcut{Key::digit4, kPlain, Action::color_energy, "4", "Colour by energy", kView},
+    Shortcut{Key::digit5, kPlain, Action::color_none, "5", "No colours", kView},
+    Shortcut{Key::f, kPlain, Action::frame, "F", "Frame the mesh", kView},
+    Shortcut{Key::w, kPlain, Action::wire, "W", "Show or hide the edges", kView},
+    Shortcut{Key::s, kPlain, Action::shading, "S", "Flat or smooth shading", kView},
+    Shortcut{Key::h, kPlain, Action::hide_panels, "H", "Hide or show the panels", kView},
+    Shortcut{Key::o, kControl, Action::open, "Ctrl+O", "Open a mesh", kFile},
+    Shortcut{Key::s, kControl, Action::save, "Ctrl+S", "Save the mesh", kFile},
+    Shortcut{Key::s, kControlShift, Action::save_as, "Ctrl+Shift+S", "Save under another name", kFile},
+    Shortcut{Key::f12, kPlain, Action::save_picture, "F12", "Save a picture", kFile},
+    Shortcut{Key::p, kControl, Action::save_picture, "Ctrl+P", "Save a picture", kFile},
+    Shortcut{Key::z, kControl, Action::undo, "Ctrl+Z", "Undo", kFile},
+    Shortcut{Key::z, kControlShift, Action::redo, "Ctrl+Shift+Z", "Redo", kFile},
+    Shortcut{Key::q, kControl, Action::quit, "Ctrl+Q", "Quit", kFile},
+    Shortcut{Key::question, kPlain, Action::help, "?", "This page", kFile},
+    Shortcut{Key::f1, kPlain, Action::help, "F1", "This page", kFile},
+};
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() { return kShortcuts; }
+
+const Shortcut* find_shortcut(const KeyChanged& press) {
+  Modifiers modifiers = press.modifiers;
+  if (press.key == Key::question) modifiers.shift = false;  // part of typing it on many keyboards
+  const auto* found = std::ranges::find_if(
+      kShortcuts, [&](const Shortcut& s) { return s.key == press.key && s.modifiers == modifiers; });
+  return found == kShortcuts.end() ? nullptr : found;
+}
+
+std::string_view keys_of(Action action) {
+  const auto* found = std::ranges::find(kShortcuts, action, &Shortcut::action);
+  return found == kShortcuts.end() ? std::string_view{} : found->keys;
+}
+
+}  // namespace isorelax::ui

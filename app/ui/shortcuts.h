@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "ui/input.h"
+
+namespace isorelax::ui {
+
+/// What a key, a button or a menu entry asks for.
+enum class Action : std::uint8_t {
+  run_pause, step, step_back, reset,
+  open, save, save_as, save_picture, undo, redo, quit,
+  frame, wire, shading, next_worst,
+  color_none, color_min_angle, color_max_angle, color_area, color_energy,
+  hide_panels, help, copy_command_line,
+};
+
+struct Shortcut {
+  Key key;
+  Modifiers modifiers;
+  Action action;
+  std::string_view keys;  ///< as people write it: "Ctrl+Shift+S"
+  std::string_view text;  ///< what it does
+  std::string_view group;
+};
+
+/// All shortcuts in the order of the help page.
+[[nodiscard]] std::span<const Shortcut> shortcuts();
+/// The shortcut of a key press; null when it has none.
+[[nodiscard]] const Shortcut* find_shortcut(const KeyChanged& press);
+/// The keys of an action as people write them; empty when it has none.
+[[nodiscard]] std::string_view keys_of(Action action);
+
+}  // namespace isorelax::ui

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+std::string describe_document(const model::Session& s) {
+  if (!s.document) return "No mesh";
+  const TriangleMesh& mesh = s.document->mesh();
+  return s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") + "   " +
+         count_text(mesh.vertex_count()) + " vertices   " + count_text(mesh.triangle_count()) + " triangles   iteration " +
+         count_text(s.current->iteration);
+}
+
+void draw_progress(const Ui& ui, const model::Progress& progress, float x) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 origin = ImGui::GetWindowPos();
+  const float height = ImGui::GetWindowHeight();
+  const float width = ui.px(110);
+  const float y = std::floor(origin.y + 0.5F * height - ui.px(2));
+  draw.AddRectFilled({origin.x + x, y}, {origin.x + x + width, y + ui.px(4)}, color::kControl, ui.px(2));
+  if (progress.share >= 0) {
+    draw.AddRectFilled({origin.x + x, y}, {origin.x + x + width * static_cast<float>(std::clamp(progress.share, 0.0, 1.0)), y + ui.px(4)},
+                       color::kAccent, ui.px(2));
+  } else {
+    // How long it takes is not known: a piece that wanders.
+    const float at = static_cast<float>(std::fmod(ImGui::GetTime() * 0.7, 1.0)) * 0.7F * width;
+    draw.AddRectFilled({origin.x + x + at, y}, {origin.x + x + at + 0.3F * width, y + ui.px(4)}, color::kAccent, ui.px(2));
+  }
+  mark_area(ui, "progress", {{origin.x + x, y}, {origin.x + x + width, y + ui.px(4)}});
+}
+
+std::string news(const model::Session& s) {
+  if (s.last_run && !s.is_running()) {
+    // A message that came after the run says more than the run does.
+    return describe_last_run(s);
+  }
+  return s.messages.empty() ? "" : s.messages.back().text;
+}
+
+}  // namespace
+
+void draw_status_bar(const Ui& ui, const Rect& rect) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(6)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  begin_panel("status", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::SetCursorPosY(0.5F * (rect.height() - ui.fonts.small->FontSize));
+  text_in(ui.fonts.small, color::kTextDim, describe_document(ui.session));
+  mark_area(ui, "document", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  const float left = ImGui::GetItemRectMax().x - rect.low.x + ui.px(24);
+  const model::Progress progress = ui.session.engine.progress();
+  float right = rect.width() - ui.px(14);
+  if (progress.busy) {
+    right -= ui.px(110) + ui.px(26);
+    draw_progress(ui, progress, right);
+    ImGui::PushFont(ui.fonts.small);
+    const float label = ImGui::CalcTextSize(progress.label.c_str()).x;
+    ImGui::PopFont();
+    right -= label + ui.px(10);
+    ImGui::SameLine(right);
+    text_in(ui.fonts.small, color::kText, progress.label);
+    ImGui::SameLine(rect.width() - ui.px(34));
+    ImGui::SetCursorPosY(ui.px(5));
+    if (button(ui, "cancel", "", {.icon = Icon::close, .look = ButtonLook::quiet, .width = ui.px(22), .height = ui.px(20)}))
+      ui.command(model::Cancel{});
+    tooltip(ui, "Stop this.");
+    right -= ui.px(20);
+  }
+  const std::string text = news(ui.session);
+  const bool error = !ui.session.messages.empty() && text == ui.session.messages.back().text &&
+                     ui.session.messages.back().kind == model::MessageKind::error;
+  const float room = right - left;
+  if (!text.empty() && room > ui.px(60)) {
+    ImGui::PushFont(ui.fonts.small);
+    const float width = std::min(ImGui::CalcTextSize(text.c_str()).x, room);
+    ImGui::PopFont();
+    ImGui::SameLine(right - width);
+    ImGui::SetCursorPosY(0.5F * (rect.height() - ui.fonts.small->FontSize));
+    text_in(ui.fonts.small, error ? color::kWorse : color::kText, text);
+    mark_area(ui, "news", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+    tooltip(ui, text);
+  }
+  ImGui::GetWindowDrawList()->AddLine(rect.low, {rect.high.x, rect.low.y}, color::kLine);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace isorelax::ui

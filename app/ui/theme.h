@@ -1,0 +1,65 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <span>
+
+namespace isorelax::ui {
+
+/// The colours of the editor. Charcoal surfaces in three heights, quiet text in three weights, one accent.
+namespace color {
+inline constexpr ImU32 kBackdrop = IM_COL32(20, 22, 26, 255);
+inline constexpr ImU32 kPanel = IM_COL32(28, 31, 36, 255);
+inline constexpr ImU32 kControl = IM_COL32(43, 47, 55, 255);
+inline constexpr ImU32 kControlHover = IM_COL32(54, 59, 69, 255);
+inline constexpr ImU32 kControlActive = IM_COL32(65, 71, 83, 255);
+inline constexpr ImU32 kLine = IM_COL32(46, 50, 58, 255);
+inline constexpr ImU32 kText = IM_COL32(226, 229, 235, 255);
+inline constexpr ImU32 kTextDim = IM_COL32(152, 159, 171, 255);
+inline constexpr ImU32 kTextFaint = IM_COL32(104, 111, 123, 255);
+inline constexpr ImU32 kAccent = IM_COL32(242, 140, 79, 255);
+inline constexpr ImU32 kAccentHover = IM_COL32(250, 160, 106, 255);
+inline constexpr ImU32 kAccentActive = IM_COL32(219, 120, 62, 255);
+inline constexpr ImU32 kOnAccent = IM_COL32(30, 20, 12, 255);
+inline constexpr ImU32 kBetter = IM_COL32(122, 205, 150, 255);
+inline constexpr ImU32 kWorse = IM_COL32(240, 128, 122, 255);
+inline constexpr ImU32 kWarning = IM_COL32(233, 196, 106, 255);
+inline constexpr ImU32 kSecond = IM_COL32(112, 178, 214, 255);  ///< a second line in a plot
+}  // namespace color
+
+/// Sizes in points; multiply by the scale for pixels. Distances are multiples of the grid.
+namespace size {
+inline constexpr float kGrid = 4;
+inline constexpr float kText = 14.5F;
+inline constexpr float kSmallText = 12.5F;
+inline constexpr float kTitleText = 17;
+inline constexpr float kTopBar = 48;
+inline constexpr float kStatusBar = 30;
+inline constexpr float kControl = 30;
+}  // namespace size
+
+/// Bytes of OpenType fonts with Latin and Greek letters.
+struct FontFiles {
+  std::span<const char> regular;
+  std::span<const char> semibold;
+};
+
+/// Fonts in the order in which they stand in the atlas.
+struct Fonts {
+  ImFont* text = nullptr;
+  ImFont* small = nullptr;
+  ImFont* heading = nullptr;
+  ImFont* title = nullptr;
+};
+
+/// Fills the atlas for a scale (pixels per point) and makes all digits equally wide, so that columns of numbers
+/// line up. The caller uploads the atlas again.
+Fonts load_fonts(ImFontAtlas& atlas, const FontFiles& files, float scale);
+
+/// Sets the whole style of the current context for a scale.
+void apply_theme(float scale);
+
+/// A theme colour for functions that want floats.
+inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
+
+}  // namespace isorelax::ui

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "model/command.h"
+#include "ui/shortcuts.h"
+#include "ui/theme.h"
+
+namespace isorelax::ui {
+
+struct Rect {
+  ImVec2 low{0, 0};
+  ImVec2 high{0, 0};
+  [[nodiscard]] float width() const { return high.x - low.x; }
+  [[nodiscard]] float height() const { return high.y - low.y; }
+  [[nodiscard]] ImVec2 center() const { return {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}; }
+};
+
+// What the interface asks of the program around it: the camera, the renderer and the window are not in the session.
+struct OrbitView {
+  float dx = 0, dy = 0;  ///< pixels
+};
+struct PanView {
+  float dx = 0, dy = 0;
+};
+struct ZoomView {
+  float factor = 1;    ///< 2: twice as large
+  float x = 0, y = 0;  ///< pixel of the viewport that stays in place
+};
+struct FrameView {};
+struct FlyToSelection {};
+struct SavePicture {
+  std::filesystem::path path;
+};
+struct Quit {};
+using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, SavePicture, Quit>;
+
+/// What one frame of the interface asks for, in order.
+struct Output {
+  std::vector<model::Command> commands;
+  std::vector<Request> requests;
+};
+
+/// What a file dialog chooses for.
+enum class FilePurpose : std::uint8_t { open_mesh, save_mesh, save_picture, reference };
+
+/// A folder as it was listed, and where the user is in it.
+struct FileBrowser {
+  struct Entry {
+    std::string name;
+    bool folder = false;
+    std::uintmax_t bytes = 0;
+    std::filesystem::file_time_type modified;
+  };
+  bool wanted = false;  ///< opens with the next frame
+  FilePurpose purpose = FilePurpose::open_mesh;
+  std::filesystem::path folder;
+  std::string typed_folder;
+  std::string name;
+  std::vector<Entry> entries;
+  int selected = -1;
+  bool all_files = false;
+  bool scroll_to_selected = false;
+  std::string error;                    ///< shown in the dialog until something else is done
+  std::filesystem::path overwrite;      ///< waits for "Replace?"; empty: no question
+};
+
+/// What waits for the answer to "Save changes?".
+struct PendingQuit {};
+using PendingAction = std::variant<std::monostate, PendingQuit, std::filesystem::path>;
+
+/// State of the widgets: nothing here is about the mesh.
+struct UiState {
+  bool panels_hidden = false;
+  float left_width = 300;   ///< points
+  float right_width = 352;  ///< points
+  bool help_wanted = false;
+  FileBrowser browser;
+  PendingAction pending;
+  bool ask_unsaved = false;
+  bool quit_after_save = false;
+  std::uint64_t dismissed_message = 0;
+  std::array<float, 2> typed_range{0, 1};
+
+  /// Where each named widget was drawn in the last frame.
+  std::map<std::string, Rect, std::less<>> rects;
+  /// Names of the widgets that Tab stops at, in the order of drawing.
+  std::vector<std::string> stops;
+  std::string focus_request;  ///< gets the keyboard focus in this frame
+  std::string focused;        ///< has it; empty: the viewport
+};
+
+/// What the functions that draw panels share.
+struct Ui {
+  const model::Session& session;
+  UiState& state;
+  Output& output;
+  const Fonts& fonts;
+  float scale = 1;
+
+  [[nodiscard]] float px(float points) const { return points * scale; }
+  void command(model::Command c) const { output.commands.push_back(std::move(c)); }
+  void request(Request r) const { output.requests.push_back(std::move(r)); }
+};
+
+}  // namespace isorelax::ui

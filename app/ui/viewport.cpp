@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+void navigate(const Ui& ui, const Rect& rect) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool planar = ui.session.document && ui.session.document->plane_normal.has_value();
+  const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+  if (ImGui::IsItemActive() && moved) {
+    const bool middle = io.MouseDown[2] || io.MouseDown[1];
+    const bool pans = middle || io.KeyShift || (planar && !io.KeyCtrl);
+    if (pans)
+      ui.request(PanView{io.MouseDelta.x, io.MouseDelta.y});
+    else
+      ui.request(OrbitView{io.MouseDelta.x, io.MouseDelta.y});
+  }
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0)
+    ui.request(ZoomView{std::pow(1.15F, io.MouseWheel), io.MousePos.x - rect.low.x, io.MousePos.y - rect.low.y});
+}
+
+void centered(ImFont* font, float middle, ImU32 color, const std::string& text) {
+  ImGui::PushFont(font);
+  ImGui::SetCursorPosX(middle - 0.5F * ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::PopFont();
+  text_in(font, color, text);
+}
+
+void draw_welcome(const Ui& ui, const Rect& rect) {
+  const float middle = 0.5F * rect.width();
+  ImGui::SetCursorPosY(0.36F * rect.height());
+  centered(ui.fonts.title, middle, color::kText, "Drop a mesh here");
+  centered(ui.fonts.text, middle, color::kTextDim, "OFF, OBJ, PLY or STL");
+  ImGui::Dummy({0, ui.px(8)});
+  const float width = ui.px(180);
+  ImGui::SetCursorPosX(middle - 0.5F * width);
+  if (button(ui, "welcome-open", "Open a mesh", {.icon = Icon::open, .look = ButtonLook::accent, .width = width,
+                                                 .height = ui.px(38)}))
+    perform(ui, Action::open);
+  if (ui.session.recent.empty()) return;
+  ImGui::Dummy({0, ui.px(12)});
+  centered(ui.fonts.heading, middle, color::kTextFaint, "RECENT");
+  for (std::size_t k = 0; k < std::min<std::size_t>(ui.session.recent.size(), 5); ++k) {
+    const std::string name = ui.session.recent[k].filename().string();
+    ImGui::SetCursorPosX(middle - ui.px(130));
+    if (button(ui, "recent/" + std::to_string(k), name, {.look = ButtonLook::quiet, .width = ui.px(260)}))
+      open_file(ui, ui.session.recent[k]);
+    tooltip(ui, ui.session.recent[k].string());
+  }
+}
+
+// The newest error or warning stays over the viewport until it is dismissed.
+void draw_notice(const Ui& ui, const Rect& rect) {
+  const auto& messages = ui.session.messages;
+  const auto found = std::find_if(messages.rbegin(), messages.rend(), [](const model::Message& m) {
+    return m.kind != model::MessageKind::info;
+  });
+  if (found == messages.rend() || found->number <= ui.state.dismissed_message) return;
+  const bool error = found->kind == model::MessageKind::error;
+  const float margin = ui.px(14);
+  const float width = std::min(ui.px(520), rect.width() - 2 * margin);
+  if (width < ui.px(80)) return;
+  ImGui::SetNextWindowPos({rect.low.x + margin, rect.low.y + margin});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 244)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(16), ui.px(10)});
+  ImGui::Begin("notice", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize);
+  const ImU32 tint = error ? color::kWorse : color::kWarning;
+  text_in(ui.fonts.heading, tint, error ? "That did not work" : "Please note");
+  ImGui::SameLine(width - ui.px(42));
+  if (button(ui, "dismiss", "", {.icon = Icon::close, .look = ButtonLook::quiet, .height = ui.px(22)}))
+    ui.state.dismissed_message = found->number;
+  ImGui::PushTextWrapPos(width - ui.px(16));
+  ImGui::TextUnformatted(found->text.c_str());
+  ImGui::PopTextWrapPos();
+  const ImVec2 low = ImGui::GetWindowPos();
+  const ImVec2 size = ImGui::GetWindowSize();
+  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.px(4), low.y + size.y}, tint, ui.px(6),
+                                            ImDrawFlags_RoundCornersLeft);
+  mark_area(ui, "notice", {low, {low.x + size.x, low.y + size.y}});
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+}
+
+std::string describe_selection(const model::Session& s) {
+  if (!s.selected_triangle || !s.current) return {};
+  const Index t = *s.selected_triangle;
+  const model::Geometry& g = *s.current->geometry;
+  std::string text = "Triangle " + std::to_string(t) + ", worst no. " + std::to_string(s.worst_rank) + ":  " +
+                     number_text("%.2f", g.min_angle_values[t]) + "\xC2\xB0 to " +
+                     number_text("%.2f", g.max_angle_values[t]) + "\xC2\xB0,  area " +
+                     number_text("%.3g", g.area_values[t]) + " \xC3\x97 mean";
+  if (s.current->energy) text += ",  E " + number_text("%.4g", s.current->energy->values[t]);
+  return text;
+}
+
+void draw_selection(const Ui& ui, const Rect& rect) {
+  const std::string text = describe_selection(ui.session);
+  if (text.empty()) return;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 pad{ui.px(12), ui.px(7)};
+  const ImVec2 low{rect.low.x + ui.px(14), rect.high.y - ui.px(14) - size.y - 2 * pad.y};
+  const ImVec2 high{low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(low, high, IM_COL32(34, 37, 43, 235), ui.px(6));
+  draw.AddRectFilled(low, {low.x + ui.px(4), high.y}, color::kAccent, ui.px(6), ImDrawFlags_RoundCornersLeft);
+  draw.AddText({low.x + pad.x, low.y + pad.y}, color::kText, text.c_str());
+  mark_area(ui, "selection", {low, high});
+}
+
+}  // namespace
+
+void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(color::kBackdrop));
+  begin_panel("viewport", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (ui.session.current) {
+    const ImVec2 size{std::max(1.0F, rect.width()), std::max(1.0F, rect.height())};
+    if (image.texture != nullptr)
+      ImGui::GetWindowDrawList()->AddImage(image.texture, rect.low, rect.high, {0, 1}, {1, 0});
+    ImGui::InvisibleButton("view", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    if (ImGui::IsItemActivated()) ui.state.focused.clear();
+    navigate(ui, rect);
+    draw_selection(ui, rect);
+  } else if (ui.session.activity != model::Activity::loading) {
+    draw_welcome(ui, rect);
+  }
+  mark_area(ui, "viewport", rect);
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  draw_notice(ui, rect);
+}
+
+}  // namespace isorelax::ui

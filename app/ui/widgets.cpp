@@ -1,0 +1,183 @@
+#include "ui/widgets.h"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace isorelax::ui {
+namespace {
+
+struct ButtonColors {
+  ImU32 rest, hover, active, text;
+};
+
+ButtonColors colors_of(ButtonLook look) {
+  switch (look) {
+    case ButtonLook::accent:
+      return {color::kAccent, color::kAccentHover, color::kAccentActive, color::kOnAccent};
+    case ButtonLook::quiet:
+      return {IM_COL32(0, 0, 0, 0), color::kControl, color::kControlActive, color::kText};
+    case ButtonLook::pressed:
+      return {IM_COL32(242, 140, 79, 46), IM_COL32(242, 140, 79, 66), IM_COL32(242, 140, 79, 86),
+              color::kAccentHover};
+    case ButtonLook::plain:
+      break;
+  }
+  return {color::kControl, color::kControlHover, color::kControlActive, color::kText};
+}
+
+}  // namespace
+
+void mark_area(const Ui& ui, std::string_view name, const Rect& rect) {
+  ui.state.rects.insert_or_assign(std::string(name), rect);
+}
+
+void mark(const Ui& ui, std::string_view name) {
+  mark_area(ui, name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  const ImGuiID id = ImGui::GetItemID();
+  if (id == 0 || (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0) return;
+  ui.state.stops.emplace_back(name);
+  if (ui.state.focus_request == name) {
+    ImGuiContext& g = *ImGui::GetCurrentContext();
+    ImGui::FocusWindow(ImGui::GetCurrentWindow());
+    ImGui::SetFocusID(id, ImGui::GetCurrentWindow());
+    g.NavDisableHighlight = false;
+    g.NavDisableMouseHover = true;
+    ImGui::SetScrollHereY();
+  }
+  const bool highlighted = ImGui::GetFocusID() == id && !ImGui::GetCurrentContext()->NavDisableHighlight;
+  const bool typed_into = ImGui::GetIO().WantTextInput && ImGui::GetActiveID() == id;
+  if (highlighted || typed_into) ui.state.focused = name;
+}
+
+float button_width(const Ui& ui, std::string_view label, Icon icon) {
+  const float pad = ImGui::GetStyle().FramePadding.x;
+  float width = 2 * pad;
+  if (icon != Icon::none) width += ui.px(14);
+  if (!label.empty()) width += ImGui::CalcTextSize(label.data(), label.data() + label.size()).x;
+  if (icon != Icon::none && !label.empty()) width += ui.px(7);
+  return std::ceil(width);
+}
+
+bool button(const Ui& ui, std::string_view name, std::string_view label, const ButtonStyle& style) {
+  const ButtonColors colors = colors_of(style.look);
+  const float height = style.height > 0 ? style.height : ui.px(size::kControl);
+  const float width = style.width > 0 ? style.width : button_width(ui, label, style.icon);
+  ImGui::BeginDisabled(!style.enabled);
+  ImGui::PushStyleColor(ImGuiCol_Button, colors.rest);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colors.hover);
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, colors.active);
+  const std::string id = "##" + std::string(name);
+  const bool pressed = ImGui::Button(id.c_str(), {width, height});
+  ImGui::PopStyleColor(3);
+  mark(ui, name);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 text = ImGui::CalcTextSize(label.data(), label.data() + label.size());
+  const float icon = style.icon != Icon::none ? ui.px(14) : 0;
+  const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
+  float x = low.x + 0.5F * (width - icon - gap - text.x);
+  const ImU32 color = ImGui::GetColorU32(colors.text, style.enabled ? 1.0F : 1.0F);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (icon > 0) draw_icon(draw, style.icon, {x + 0.5F * icon, low.y + 0.5F * height}, icon, color);
+  x += icon + gap;
+  draw.AddText({std::floor(x), std::floor(low.y + 0.5F * (height - text.y))}, color, label.data(),
+               label.data() + label.size());
+  ImGui::EndDisabled();
+  return pressed;
+}
+
+int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen,
+              float width) {
+  int result = -1;
+  const float each = std::floor(width / static_cast<float>(labels.size()));
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + each * static_cast<float>(labels.size()),
+                                                  low.y + ui.px(size::kControl)},
+                                            ImGui::GetColorU32(color::kControl), ImGui::GetStyle().FrameRounding);
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (k > 0) ImGui::SameLine(0, 0);
+    const bool on = chosen == static_cast<int>(k);
+    const std::string id = std::string(name) + "/" + std::string(labels[k]);
+    if (button(ui, id, labels[k], {.look = on ? ButtonLook::pressed : ButtonLook::quiet, .width = each}) && !on)
+      result = static_cast<int>(k);
+  }
+  return result;
+}
+
+void heading(const Ui& ui, std::string_view text) {
+  const bool first = ImGui::GetCursorPosY() < ImGui::GetStyle().WindowPadding.y + 1;
+  if (!first) {
+    ImGui::Dummy({0, ui.px(2)});
+    ImGui::Separator();
+    ImGui::Dummy({0, ui.px(1)});
+  }
+  text_in(ui.fonts.heading, color::kTextDim, text);
+}
+
+void text_in(ImFont* font, ImU32 color, std::string_view text) {
+  ImGui::PushFont(font);
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void row_label(const Ui& ui, std::string_view label, std::string_view tip) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label.data(), label.data() + label.size());
+  tooltip(ui, tip);
+  ImGui::SameLine(ui.px(104));
+  ImGui::SetNextItemWidth(-1);
+}
+
+void tooltip(const Ui& ui, std::string_view text, std::string_view keys) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (ImGui::GetCurrentContext()->HoveredIdTimer < 0.5F && ImGui::GetItemID() != 0) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ui.px(280));
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  if (!keys.empty()) text_in(ui.fonts.small, color::kTextDim, keys);
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen) {
+  int result = -1;
+  const std::string id = "##" + std::string(name);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float width = ImGui::CalcItemWidth();
+  const std::string preview(labels[static_cast<std::size_t>(chosen)]);
+  if (ImGui::BeginCombo(id.c_str(), preview.c_str())) {
+    mark_area(ui, name, {low, {low.x + width, low.y + ImGui::GetFrameHeight()}});
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      const std::string label(labels[k]);
+      if (ImGui::Selectable(label.c_str(), chosen == static_cast<int>(k))) result = static_cast<int>(k);
+      mark_area(ui, std::string(name) + "/" + label, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+    }
+    ImGui::EndCombo();
+  } else {
+    mark(ui, name);
+  }
+  return result;
+}
+
+std::string count_text(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), "\xE2\x80\x89");  // thin space
+  return digits;
+}
+
+std::string number_text(const char* format, double value) {
+  if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
+  if (std::isnan(value)) return "\xE2\x80\x93";  // en dash
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "ui/ui_state.h"
+
+namespace isorelax::ui {
+
+/// Small pictures drawn with lines, so that they are sharp at any scale.
+enum class Icon : std::uint8_t { none, run, pause, step, reset, open, save, picture, undo, redo, frame, wire, help, close };
+
+enum class ButtonLook : std::uint8_t { plain, accent, quiet, pressed };
+
+struct ButtonStyle {
+  Icon icon = Icon::none;
+  ButtonLook look = ButtonLook::plain;
+  float width = 0;  ///< pixels; 0: as wide as its content
+  float height = 0;  ///< pixels; 0: a control's height
+  bool enabled = true;
+};
+
+/// Notes where the widget just drawn is, under a name that tests and keyboard focus use.
+void mark(const Ui& ui, std::string_view name);
+/// The same for a rectangle that is no widget: no stop for the keyboard.
+void mark_area(const Ui& ui, std::string_view name, const Rect& rect);
+
+/// A button with an icon and a label (either may be missing); `name` is its identity. True when pressed.
+bool button(const Ui& ui, std::string_view name, std::string_view label, const ButtonStyle& style = {});
+/// The width that such a button takes when none is given, in pixels.
+float button_width(const Ui& ui, std::string_view label, Icon icon);
+
+/// Choices side by side, one of them pressed. The new choice, or -1.
+int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen, float width);
+
+/// Draws an icon of side `size` pixels around a centre.
+void draw_icon(ImDrawList& draw, Icon icon, ImVec2 center, float size, ImU32 color);
+
+/// Small capitals over a group of controls, with a line above unless it is the first.
+void heading(const Ui& ui, std::string_view text);
+/// Begins a row: the label at the left, the next control takes the rest of the width.
+void row_label(const Ui& ui, std::string_view label, std::string_view tip);
+/// Explains the last item after the pointer rested on it; `keys` may be empty.
+void tooltip(const Ui& ui, std::string_view text, std::string_view keys = {});
+/// A combo box over labels; the new choice, or -1.
+int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen);
+void text_in(ImFont* font, ImU32 color, std::string_view text);
+
+/// "1 234 567": groups of three with thin gaps.
+[[nodiscard]] std::string count_text(std::size_t count);
+/// printf-like number text for one double.
+[[nodiscard]] std::string number_text(const char* format, double value);
+
+}  // namespace isorelax::ui
