@@ -25,6 +25,13 @@ std::optional<Vec3> find_plane(const TriangleMesh& mesh) {
   return normal;
 }
 
+std::vector<std::uint8_t> mark_boundary(const Topology& topology) {
+  std::vector<std::uint8_t> marks(topology.triangle_count());
+  for (Corner c = 0; c < 3 * topology.triangle_count(); ++c)
+    if (topology.is_boundary_edge(c)) marks[c / 3] |= static_cast<std::uint8_t>(1U << c % 3);
+  return marks;
+}
+
 }  // namespace
 
 DocumentPtr read_document(const std::filesystem::path& path) {
@@ -33,6 +40,7 @@ DocumentPtr read_document(const std::filesystem::path& path) {
   document->file = read_mesh(path);
   document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
   document->plane_normal = find_plane(document->mesh());
+  document->boundary_marks = mark_boundary(document->topology);
   return document;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,6 +20,8 @@ struct Document {
   Topology topology;
   /// Unit normal of the plane that holds all vertices (to 1e-9 of the extent); none for a mesh in space.
   std::optional<Vec3> plane_normal;
+  /// Per triangle: bit k is set where the edge opposite corner k has no other triangle.
+  std::vector<std::uint8_t> boundary_marks;
 
   [[nodiscard]] const TriangleMesh& mesh() const { return file.mesh; }
 };

@@ -44,7 +44,9 @@ void enter(FileBrowser& browser, const fs::path& folder) {
   for (const fs::directory_iterator end; list != end; list.increment(error)) {
     if (error) break;
     std::error_code ignored;
-    FileBrowser::Entry entry{.name = list->path().filename().string(), .folder = list->is_directory(ignored)};
+    FileBrowser::Entry entry;
+    entry.name = list->path().filename().string();
+    entry.folder = list->is_directory(ignored);
     if (entry.name.starts_with('.')) continue;
     if (!entry.folder && !browser.all_files && !fits(browser.purpose, entry.name)) continue;
     if (!entry.folder) entry.bytes = list->file_size(ignored);

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "editor/painter.h"
+#include "editor/view_scene.h"
+#include "model/command.h"
+#include "render/renderer.h"
+#include "ui/interface.h"
+
+namespace isorelax::editor {
+
+enum class Motion : std::uint8_t { animated, instant };
+
+/// Session, interface, camera and renderer put together: the editor without a window. Needs a current OpenGL
+/// context for its whole life.
+class Editor {
+ public:
+  explicit Editor(render::GlLoader loader, Motion motion = Motion::animated);
+
+  struct FrameOptions {
+    render::PictureSize size;
+    float scale = 1;    ///< pixels per point
+    double time = 0;    ///< seconds, ascending
+  };
+  /// Takes over what the worker did, draws the mesh if anything about it changed, runs the interface, carries out
+  /// what it asks for, and paints all of it into a framebuffer.
+  void frame(const FrameOptions& options);
+  /// Copies the last frame to the window's framebuffer.
+  void show(render::PictureSize window) const { painter_.show(window); }
+  /// The last frame.
+  [[nodiscard]] render::Image picture() const { return painter_.read_back(); }
+
+  /// Whether another frame would look different without any new input.
+  [[nodiscard]] bool is_restless() const;
+  [[nodiscard]] bool wants_to_quit() const { return quit_; }
+  [[nodiscard]] model::Session& session() { return session_; }
+  [[nodiscard]] ui::Interface& interface() { return interface_; }
+  [[nodiscard]] const render::Camera& camera() const { return camera_; }
+
+  /// Where the time of the last frame went, in seconds. Software rendering is all in `drawing`.
+  struct Times {
+    double thinking = 0;  ///< session, scene and interface
+    double drawing = 0;   ///< OpenGL
+  };
+  [[nodiscard]] const Times& times() const { return times_; }
+
+ private:
+  // What the mesh's picture depends on: equal keys, equal pictures.
+  struct PictureKey {
+    const model::Geometry* geometry = nullptr;
+    const model::EnergyState* energy = nullptr;
+    model::ViewSettings view;
+    model::ValueRange range;
+    render::Camera camera;
+    render::PictureSize size;
+    std::optional<Index> selected;
+    float scale = 1;
+    bool operator==(const PictureKey&) const = default;
+  };
+  struct Flight {
+    render::Camera from, to;
+    double start = 0;
+  };
+
+  void follow_document();
+  void move_camera(double time);
+  void draw_mesh();
+  void carry_out(const ui::Output& output);
+  void carry_out_request(const ui::Request& request);
+  void fly_to(const render::Camera& to);
+  void save_picture(const std::filesystem::path& path);
+
+  model::Session session_;
+  ui::Interface interface_;
+  render::Renderer renderer_;
+  Painter painter_;
+  ViewScene scene_;
+  Motion motion_;
+  render::Camera camera_;
+  std::optional<Flight> flight_;
+  model::DocumentPtr shown_document_;
+  PictureKey drawn_;
+  bool has_picture_ = false;
+  render::PictureSize viewport_;
+  float scale_ = 1;
+  double time_ = 0;
+  bool acted_ = false;
+  bool quit_ = false;
+  Times times_;
+};
+
+}  // namespace isorelax::editor

@@ -1,0 +1,38 @@
+#include "editor/screenshot.h"
+
+#include "mesh/error.h"
+#include "render/offscreen.h"
+
+namespace isorelax::editor {
+namespace {
+
+void throw_on_error(const model::Session& session) {
+  for (const model::Message& message : session.messages)
+    if (message.kind == model::MessageKind::error) throw MeshError(message.text);
+}
+
+}  // namespace
+
+render::Image take_screenshot(const ScreenshotOptions& options) {
+  const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
+  Editor editor(context->loader(), Motion::instant);
+  model::Session& session = editor.session();
+  if (options.file) {
+    model::execute(session, model::OpenFile{*options.file});
+    model::finish(session);
+    throw_on_error(session);
+  }
+  if (options.iterations > 0) {
+    model::SmoothingSettings settings = session.smoothing;
+    settings.iterations = options.iterations;
+    model::execute(session, model::SetSmoothing{settings, "Iterations"});
+    model::execute(session, model::Run{});
+    model::finish(session);
+    throw_on_error(session);
+  }
+  // The interface needs a few frames to settle its sizes.
+  for (int k = 0; k < 4; ++k) editor.frame({.size = options.size, .scale = options.scale, .time = 0.02 * k});
+  return editor.picture();
+}
+
+}  // namespace isorelax::editor

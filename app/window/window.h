@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace isorelax::window {
+
+struct WindowOptions {
+  std::vector<std::filesystem::path> files;  ///< the first is opened, the others are offered as recent files
+  int width = 1440;                          ///< points
+  int height = 900;
+  /// Closes after so many frames: for tests. None: stays until the user closes it.
+  std::optional<unsigned> frames;
+  /// Written from the window's own framebuffer when it closes.
+  std::optional<std::filesystem::path> screenshot;
+};
+
+/// Opens the editor's window and returns when it is closed. Throws UsageError when there is no display (the text names
+/// the commands that need none), OutputError when the screenshot cannot be written.
+void run_window(const WindowOptions& options);
+
+}  // namespace isorelax::window
