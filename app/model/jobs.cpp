@@ -63,7 +63,9 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   context.progress("Preparing", -1);
   const SmoothingProblem& problem = context.bench().problem(request.document, request.settings);
   if (context.cancelled()) {
-    context.publish(RunEnded{{.stopped = StopReason::cancelled}});
+    RunResult result;
+    result.stopped = StopReason::cancelled;
+    context.publish(RunEnded{result});
     return;
   }
   const auto start = request.start->positions();

@@ -208,7 +208,6 @@ void draw_entries(const Ui& ui, float height) {
     for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
       const auto& entry = browser.entries[static_cast<std::size_t>(k)];
       const std::string label = entry.name + (entry.folder ? "/" : "") + "##" + std::to_string(k);
-      ImGui::PushStyleColor(ImGuiCol_Text, entry.folder ? color::kText : color::kText);
       if (ImGui::Selectable(label.c_str(), browser.selected == k,
                             ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
         const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
@@ -216,7 +215,6 @@ void draw_entries(const Ui& ui, float height) {
         if (!entry.folder) browser.name = entry.name;
         if (twice) opened = k;
       }
-      ImGui::PopStyleColor();
       mark_area(ui, "entry/" + entry.name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
       const std::string size = entry.folder ? "folder" : size_text(entry.bytes);
       ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(28) - ImGui::CalcTextSize(size.c_str()).x);

@@ -16,8 +16,8 @@ constexpr ImU32 kOutline = IM_COL32(190, 197, 210, 200);
 std::string short_number(double value) {
   const double magnitude = std::abs(value);
   if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3)) return number_text("%.0e", value);
-  if (magnitude >= 1e4) return number_text("%.0fk", value / 1e3);
-  return number_text("%.4g", value);
+  if (magnitude >= 1e5) return number_text("%.0fk", value / 1e3);
+  return number_text("%.5g", value);
 }
 
 // The rectangle of a plot's data, and the way from values to pixels.
@@ -69,7 +69,7 @@ Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
   const std::string id = "##plot-" + name;
   ImGui::InvisibleButton(id.c_str(), {width, height});
   const ImVec2 high = ImGui::GetItemRectMax();
-  const Rect area{{low.x + ui.px(38), low.y + line + ui.px(8)}, {high.x - ui.px(4), high.y - line - ui.px(5)}};
+  const Rect area{{low.x + ui.px(42), low.y + line + ui.px(8)}, {high.x - ui.px(4), high.y - line - ui.px(5)}};
   mark_area(ui, name, area);
   return area;
 }
@@ -147,7 +147,7 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
       step = m * power;
       break;
     }
-  for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) ticks.push_back(n * step);
+  for (double n = std::ceil(low / step - 1e-9) + 0.0; n * step <= high + 1e-9 * step; ++n) ticks.push_back(n * step);
   return ticks;
 }
 

@@ -149,7 +149,7 @@ void draw_quality_panel(const Ui& ui, const Rect& rect) {
   ImGui::Dummy({0, ui.px(1)});
   // The four plots share what is left; a low window scrolls instead of squeezing them.
   const float left = ImGui::GetContentRegionAvail().y - 3 * ImGui::GetStyle().ItemSpacing.y;
-  const float height = std::clamp(std::floor(left / 4), ui.px(96), ui.px(190));
+  const float height = std::clamp(std::floor(left / 4), ui.px(84), ui.px(190));
   draw_histograms(ui, height);
   draw_history(ui, height);
   ImGui::End();

@@ -8,7 +8,7 @@ namespace isorelax::ui {
 namespace {
 
 // Latin, Latin-1, Greek, general punctuation (dashes, ellipsis), superscripts, arrows, minus, approximately, less-equal.
-constexpr std::array<ImWchar, 19> kGlyphs{0x0020, 0x017F, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2032, 0x2033,
+constexpr std::array<ImWchar, 19> kGlyphs{0x0020, 0x017F, 0x0391, 0x03C9, 0x2002, 0x2027, 0x2032, 0x2033,
                                           0x2070, 0x209C, 0x2190, 0x2199, 0x2212, 0x2212, 0x2248, 0x2248,
                                           0x2264, 0x2265, 0};
 
@@ -52,7 +52,7 @@ Fonts load_fonts(ImFontAtlas& atlas, const FontFiles& files, float scale) {
 void apply_theme(float scale) {
   ImGuiStyle style;
   style.WindowPadding = {14, 12};
-  style.FramePadding = {10, 6};
+  style.FramePadding = {10, 0.5F * (size::kControl - size::kText)};
   style.ItemSpacing = {8, 8};
   style.ItemInnerSpacing = {6, 6};
   style.ScrollbarSize = 10;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -109,8 +110,16 @@ struct Ui {
   float scale = 1;
 
   [[nodiscard]] float px(float points) const { return points * scale; }
-  void command(model::Command c) const { output.commands.push_back(std::move(c)); }
-  void request(Request r) const { output.requests.push_back(std::move(r)); }
+  /// Asks for one of the alternatives of model::Command.
+  template <typename C>
+  void command(C&& c) const {
+    output.commands.emplace_back(std::forward<C>(c));
+  }
+  /// Asks for one of the alternatives of Request.
+  template <typename R>
+  void request(R&& r) const {
+    output.requests.emplace_back(std::forward<R>(r));
+  }
 };
 
 }  // namespace isorelax::ui

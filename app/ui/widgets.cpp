@@ -74,16 +74,17 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
   ImGui::PopStyleColor(3);
   mark(ui, name);
   const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 text = ImGui::CalcTextSize(label.data(), label.data() + label.size());
+  const ImVec2 text = label.empty() ? ImVec2(0, 0) : ImGui::CalcTextSize(label.data(), label.data() + label.size());
   const float icon = style.icon != Icon::none ? ui.px(14) : 0;
   const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
   float x = low.x + 0.5F * (width - icon - gap - text.x);
-  const ImU32 color = ImGui::GetColorU32(colors.text, style.enabled ? 1.0F : 1.0F);
+  const ImU32 color = ImGui::GetColorU32(colors.text);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (icon > 0) draw_icon(draw, style.icon, {x + 0.5F * icon, low.y + 0.5F * height}, icon, color);
   x += icon + gap;
-  draw.AddText({std::floor(x), std::floor(low.y + 0.5F * (height - text.y))}, color, label.data(),
-               label.data() + label.size());
+  if (!label.empty())
+    draw.AddText({std::floor(x), std::floor(low.y + 0.5F * (height - text.y))}, color, label.data(),
+                 label.data() + label.size());
   ImGui::EndDisabled();
   return pressed;
 }

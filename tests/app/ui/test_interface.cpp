@@ -1,0 +1,304 @@
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "app/temporary_mesh.h"
+#include "render/embedded.h"
+#include "ui/interface.h"
+
+namespace isorelax::ui {
+namespace {
+
+FontFiles test_fonts() {
+  const std::string_view font = render::embedded_file("Inter-Regular.otf");
+  return {{font.data(), font.size()}, {font.data(), font.size()}};
+}
+
+/// Drives the whole interface as a person does, with neither window nor OpenGL.
+class InterfaceTest : public ::testing::Test {
+ protected:
+  void frame() {
+    const Output output = interface.frame(session, {.display = {1280, 720}});
+    for (const model::Command& command : output.commands) model::execute(session, command);
+    requests.insert(requests.end(), output.requests.begin(), output.requests.end());
+    model::execute(session, model::Collect{});
+  }
+  void settle() {
+    do {
+      frame();
+    } while (interface.is_restless());
+  }
+  void settle_and_finish() {
+    settle();
+    model::finish(session);
+    settle();
+  }
+  [[nodiscard]] bool shows(const std::string& name) const { return interface.state().rects.contains(name); }
+  void move_to(const std::string& name) {
+    ASSERT_TRUE(shows(name)) << name;
+    const ImVec2 at = interface.state().rects.at(name).center();
+    interface.input().push(PointerMoved{at.x, at.y});
+    settle();
+  }
+  void click(const std::string& name) {
+    move_to(name);
+    interface.input().push(ButtonChanged{0, true});
+    interface.input().push(ButtonChanged{0, false});
+    settle_and_finish();
+  }
+  void press(Key key, Modifiers modifiers = {}) {
+    interface.input().push(KeyChanged{key, true, modifiers});
+    interface.input().push(KeyChanged{key, false, {}});
+    settle_and_finish();
+  }
+  void type(const std::string& text) {
+    interface.input().push(TextTyped{text});
+    settle();
+  }
+  void open(std::size_t triangles = 400) {
+    model::execute(session, model::OpenFile{folder.make_square(triangles)});
+    model::finish(session);
+    settle();
+  }
+  template <typename R>
+  [[nodiscard]] bool requested() const {
+    return std::ranges::any_of(requests, [](const Request& r) { return std::holds_alternative<R>(r); });
+  }
+
+  test::TemporaryFolder folder;
+  model::Session session;
+  Interface interface{test_fonts()};
+  std::vector<Request> requests;
+};
+
+TEST_F(InterfaceTest, StepChangesRecordColoursAndNumbers) {
+  open();
+  const auto colours = session.current->values(model::Coloring::min_angle);
+  const std::vector<double> before(colours.begin(), colours.end());
+  const double mean_before = session.current->quality().mean_min_angle_deg;
+  click("step");
+  ASSERT_TRUE(session.last_step);
+  EXPECT_EQ(session.current->iteration, 1U);
+  const auto after = session.current->values(model::Coloring::min_angle);
+  EXPECT_FALSE(std::ranges::equal(before, after));
+  EXPECT_NE(session.current->quality().mean_min_angle_deg, mean_before);
+  EXPECT_TRUE(shows("figure/Mean smallest"));
+}
+
+TEST_F(InterfaceTest, TheSameDoneByKeys) {
+  open();
+  press(Key::right);
+  EXPECT_EQ(session.current->iteration, 1U);
+  press(Key::right);
+  EXPECT_EQ(session.current->iteration, 2U);
+  press(Key::left);
+  EXPECT_EQ(session.current->iteration, 1U);
+  press(Key::home);
+  EXPECT_EQ(session.current->geometry, session.original->geometry);
+  press(Key::z, {.control = true});
+  EXPECT_EQ(session.current->iteration, 1U);
+  press(Key::z, {.control = true, .shift = true});
+  EXPECT_EQ(session.current->iteration, 0U);
+}
+
+TEST_F(InterfaceTest, RunButtonRunsTheNumberOfIterations) {
+  open();
+  session.smoothing.iterations = 5;
+  session.smoothing.tolerance = 0;
+  click("run");
+  EXPECT_EQ(session.current->iteration, 5U);
+  EXPECT_TRUE(shows("news"));
+  EXPECT_NE(describe_last_run(session).find("5 iterations"), std::string::npos);
+  EXPECT_NE(describe_last_run(session).find("boundary"), std::string::npos) << describe_last_run(session);
+}
+
+TEST_F(InterfaceTest, DraggingTheWeightSliderChangesTheSettingOnce) {
+  open();
+  move_to("mu");
+  interface.input().push(ButtonChanged{0, true});
+  settle();
+  const Rect rect = interface.state().rects.at("mu");
+  for (const float share : {0.55F, 0.6F, 0.7F}) {
+    interface.input().push(PointerMoved{rect.low.x + share * rect.width(), rect.center().y});
+    settle();
+  }
+  interface.input().push(ButtonChanged{0, false});
+  settle_and_finish();
+  EXPECT_GT(session.smoothing.mu_a, 0.5);
+  EXPECT_EQ(session.undo.size(), 1U);
+  press(Key::z, {.control = true});
+  EXPECT_EQ(session.smoothing.mu_a, 0);
+}
+
+TEST_F(InterfaceTest, BoundaryReferenceAndColouringAreChosenByClicks) {
+  open();
+  click("boundary/Slide");
+  EXPECT_EQ(session.smoothing.boundary, BoundaryRule::slide);
+  click("reference");
+  click("reference/Mesh as opened");
+  EXPECT_EQ(session.smoothing.reference, model::ReferenceKind::initial);
+  click("coloring/Energy");
+  EXPECT_EQ(session.view.coloring, model::Coloring::energy);
+  press(Key::digit2);
+  EXPECT_EQ(session.view.coloring, model::Coloring::max_angle);
+  click("range/Current");
+  EXPECT_EQ(session.view.range_mode, model::RangeMode::current);
+}
+
+TEST_F(InterfaceTest, AFileIsOpenedThroughTheBrowserWithTheKeyboardAlone) {
+  open();
+  (void)folder.make_square(100, "zz.off");
+  press(Key::o, {.control = true});
+  ASSERT_TRUE(shows("browser-accept"));
+  type("zz.off");
+  press(Key::enter);
+  EXPECT_EQ(session.document->mesh().triangle_count(), 100U);
+  EXPECT_FALSE(shows("browser-accept"));
+}
+
+TEST_F(InterfaceTest, AMissingFileIsAMessageInTheBrowserWhichEscapeCloses) {
+  open();
+  press(Key::o, {.control = true});
+  type("nothing.off");
+  press(Key::enter);
+  EXPECT_TRUE(shows("browser-note"));
+  EXPECT_NE(interface.state().browser.error.find("nothing.off"), std::string::npos);
+  press(Key::escape);
+  settle();
+  EXPECT_FALSE(shows("browser-accept"));
+}
+
+TEST_F(InterfaceTest, ABadFileIsANoticeAndTheDocumentStays) {
+  open();
+  const auto document = session.document;
+  std::ofstream(folder / "bad.ply") << "ply\nformat ascii 1.0\n";
+  interface.drop(folder / "bad.ply");
+  settle_and_finish();
+  EXPECT_EQ(session.document, document);
+  EXPECT_TRUE(shows("notice"));
+  click("dismiss");
+  EXPECT_FALSE(shows("notice"));
+}
+
+TEST_F(InterfaceTest, UnsavedWorkIsAskedForBeforeItIsLost) {
+  open();
+  press(Key::right);
+  const auto document = session.document;
+  interface.drop(folder.make_square(100, "other.off"));
+  settle_and_finish();
+  ASSERT_TRUE(shows("unsaved-cancel"));
+  click("unsaved-cancel");
+  EXPECT_EQ(session.document, document);
+  interface.ask_to_quit();
+  settle();
+  ASSERT_TRUE(shows("unsaved-discard"));
+  EXPECT_FALSE(requested<Quit>());
+  click("unsaved-discard");
+  EXPECT_TRUE(requested<Quit>());
+}
+
+TEST_F(InterfaceTest, SavingOverAFileAsksFirst) {
+  open();
+  press(Key::right);
+  std::ofstream(folder / "square-smooth.off") << "precious";
+  press(Key::s, {.control = true});
+  ASSERT_TRUE(shows("browser-accept")) << "the first save asks for a name";
+  click("browser-accept");
+  EXPECT_TRUE(shows("browser-note"));
+  EXPECT_TRUE(session.has_unsaved_changes());
+  click("browser-accept");
+  EXPECT_FALSE(session.has_unsaved_changes());
+  EXPECT_EQ(read_mesh(folder / "square-smooth.off").mesh.triangle_count(), 400U);
+}
+
+TEST_F(InterfaceTest, TabReachesEveryControlAndSpaceUsesIt) {
+  open();
+  const std::vector<std::string> stops = interface.state().stops;
+  ASSERT_GT(stops.size(), 25U);
+  for (const std::string& stop : stops) {
+    press(Key::tab);
+    EXPECT_EQ(interface.state().focused, stop);
+  }
+  while (interface.state().focused != "boundary/Free") press(Key::tab);
+  press(Key::space);
+  EXPECT_EQ(session.smoothing.boundary, BoundaryRule::free);
+  EXPECT_FALSE(session.is_running()) << "Space belongs to the control that has the focus";
+  EXPECT_EQ(session.current->iteration, 0U);
+  press(Key::escape);
+  EXPECT_TRUE(interface.state().focused.empty());
+  press(Key::right);
+  EXPECT_EQ(session.current->iteration, 1U) << "without a focus the keys are shortcuts again";
+}
+
+TEST_F(InterfaceTest, TypingInAFieldIsNoShortcut) {
+  open();
+  press(Key::o, {.control = true});
+  interface.input().push(KeyChanged{Key::w, true, {}});
+  interface.input().push(TextTyped{"w"});
+  interface.input().push(KeyChanged{Key::w, false, {}});
+  settle_and_finish();
+  EXPECT_TRUE(session.view.wire);
+  EXPECT_EQ(interface.state().browser.name, "w");
+}
+
+TEST_F(InterfaceTest, AKeyPressedAndReleasedBetweenTwoFramesIsNotLost) {
+  open();
+  interface.input().push(KeyChanged{Key::w, true, {}});
+  interface.input().push(KeyChanged{Key::w, false, {}});
+  interface.input().push(KeyChanged{Key::w, true, {}});
+  interface.input().push(KeyChanged{Key::w, false, {}});
+  interface.input().push(KeyChanged{Key::w, true, {}});
+  interface.input().push(KeyChanged{Key::w, false, {}});
+  settle();
+  EXPECT_FALSE(session.view.wire) << "three presses toggle three times";
+}
+
+TEST_F(InterfaceTest, DraggingInTheViewportPansAPlanarMeshAndTheWheelZoomsToThePointer) {
+  open();
+  move_to("viewport");
+  interface.input().push(ButtonChanged{0, true});
+  settle();
+  const ImVec2 at = interface.state().rects.at("viewport").center();
+  interface.input().push(PointerMoved{at.x + 30, at.y + 10});
+  settle();
+  interface.input().push(ButtonChanged{0, false});
+  interface.input().push(WheelTurned{0, 1});
+  settle();
+  EXPECT_TRUE(requested<PanView>());
+  EXPECT_FALSE(requested<OrbitView>());
+  const auto zoom = std::ranges::find_if(requests, [](const Request& r) { return std::holds_alternative<ZoomView>(r); });
+  ASSERT_NE(zoom, requests.end());
+  EXPECT_GT(std::get<ZoomView>(*zoom).factor, 1);
+  EXPECT_NEAR(std::get<ZoomView>(*zoom).x, at.x + 30 - interface.state().rects.at("viewport").low.x, 1);
+}
+
+TEST_F(InterfaceTest, HelpListsTheKeysAndEscapeClosesIt) {
+  open();
+  press(Key::question);
+  EXPECT_TRUE(shows("help-page"));
+  press(Key::escape);
+  settle();
+  EXPECT_FALSE(shows("help-page"));
+}
+
+TEST_F(InterfaceTest, HiddenPanelsLeaveTheWholeWindowToTheMesh) {
+  open();
+  press(Key::h);
+  EXPECT_EQ(interface.state().rects.at("viewport").width(), 1280);
+  EXPECT_FALSE(shows("run"));
+  press(Key::h);
+  EXPECT_TRUE(shows("run"));
+}
+
+TEST_F(InterfaceTest, NextWorstSelectsAndFliesThere) {
+  open();
+  press(Key::n);
+  ASSERT_TRUE(session.selected_triangle);
+  EXPECT_TRUE(requested<FlyToSelection>());
+  EXPECT_TRUE(shows("selection"));
+}
+
+}  // namespace
+}  // namespace isorelax::ui
