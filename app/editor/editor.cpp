@@ -7,14 +7,13 @@
 #include "editor/embedded.h"
 #include "mesh/error.h"
 #include "render/embedded.h"
+#include "render/overlay.h"
 
 namespace isorelax::editor {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kFlightSeconds = 0.3;
-// Room for the legend at the right of the mesh.
-constexpr render::FitOptions kFit{.margin = 0.07, .side = 0.12};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -74,8 +73,13 @@ void Editor::follow_document() {
   const bool same_file = shown_document_ && shown_document_->path == session_.document->path;
   shown_document_ = session_.document;
   if (same_file) return;
-  camera_ = render::default_camera(session_.document->mesh().positions, viewport_, kFit);
+  camera_ = render::default_camera(session_.document->mesh().positions, viewport_, fit_options());
   flight_.reset();
+}
+
+// Keeps the mesh clear of the legend.
+render::FitOptions Editor::fit_options() {
+  return {.margin = 0.07, .right = render::legend_share(scene_.make(session_, scale_), viewport_)};
 }
 
 void Editor::move_camera(double time) {
@@ -126,7 +130,7 @@ void Editor::carry_out_request(const ui::Request& request) {
     flight_.reset();
     camera_ = render::zoom_to(camera_, zoom->factor, zoom->x, zoom->y, viewport_);
   } else if (std::holds_alternative<ui::FrameView>(request)) {
-    if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), viewport_, kFit));
+    if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), viewport_, fit_options()));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));

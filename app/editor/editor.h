@@ -65,6 +65,7 @@ class Editor {
   };
 
   void follow_document();
+  [[nodiscard]] render::FitOptions fit_options();
   void move_camera(double time);
   void draw_mesh();
   void carry_out(const ui::Output& output);

@@ -43,7 +43,6 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
       break;
     case FeatureRule::angle:
       options.features.ridge_angle_deg = settings.feature_deg;
-      options.features.sharp_edge_deg = settings.feature_deg;
       break;
   }
   return options;

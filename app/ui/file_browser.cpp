@@ -85,7 +85,7 @@ std::string_view title(FilePurpose purpose) {
   return "Choose a reference mesh";
 }
 
-void deliver(const Ui& ui, const fs::path& path) {
+void deliver(const Ui& ui, fs::path path) {  // by value: it may be the one that is cleared here
   FileBrowser& browser = ui.state.browser;
   browser.overwrite.clear();
   ImGui::CloseCurrentPopup();

@@ -24,7 +24,7 @@ class Interface {
     ImVec2 display{1280, 720};  ///< pixels
     float scale = 1;            ///< pixels per point
     float seconds = 1.0F / 60;  ///< since the last frame
-    ViewportImage viewport;
+      ViewportImage viewport{};
   };
   /// One frame. Reads the session, changes nothing in it: execute the commands that come back.
   Output frame(const model::Session& session, const FrameOptions& options);

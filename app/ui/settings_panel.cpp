@@ -192,11 +192,13 @@ void draw_display(const Ui& ui) {
   if (map >= 0) view.color_map = map == 0 ? "" : std::string(kMaps[static_cast<std::size_t>(map)]);
   ImGui::Dummy({0, 0});
   ImGui::SameLine(ui.px(104));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(3), ui.px(3)});
   ImGui::Checkbox("Reversed", &view.reversed);
   mark(ui, "reversed");
   ImGui::SameLine(0, ui.px(14));
   ImGui::Checkbox("Legend", &view.legend);
   mark(ui, "legend");
+  ImGui::PopStyleVar();
   if (view != ui.session.view) ui.command(model::SetView{view});
 }
 

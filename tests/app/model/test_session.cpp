@@ -23,7 +23,7 @@ class SessionTest : public ::testing::Test {
     settings.iterations = iterations;
     settings.tolerance = 0;
     execute(session, SetSmoothing{settings, "Iterations"});
-    execute(session, Run{});
+    execute(session, model::Run{});
     finish(session);
   }
   void do_and_wait(const Command& command) {
@@ -180,7 +180,7 @@ TEST_F(SessionTest, PauseStopsARunThatContinuesWhereItWas) {
   settings.iterations = 1000000;
   settings.tolerance = 0;
   execute(session, SetSmoothing{settings, "Iterations"});
-  execute(session, Run{});
+  execute(session, model::Run{});
   EXPECT_TRUE(session.is_running());
   while (session.current->iteration < 2) {
     session.engine.wait();
@@ -193,7 +193,7 @@ TEST_F(SessionTest, PauseStopsARunThatContinuesWhereItWas) {
   const unsigned paused_at = session.current->iteration;
   EXPECT_EQ(session.history.back().iteration, paused_at);
   EXPECT_EQ(session.remaining, 1000000 - paused_at);
-  execute(session, Run{});
+  execute(session, model::Run{});
   while (session.current->iteration <= paused_at) {
     session.engine.wait();
     execute(session, Collect{});
@@ -208,7 +208,7 @@ TEST_F(SessionTest, SavingWhileARunGoesStopsTheRunAndLosesNothing) {
   settings.iterations = 1000000;
   settings.tolerance = 0;
   execute(session, SetSmoothing{settings, "Iterations"});
-  execute(session, Run{});
+  execute(session, model::Run{});
   while (session.current->iteration < 1) {
     session.engine.wait();
     execute(session, Collect{});
@@ -286,7 +286,7 @@ TEST_F(SessionTest, TheCommandLineNamesEverySettingAndQuotesTheFile) {
 
 TEST_F(SessionTest, CommandsBeforeAMeshIsOpenDoNoHarm) {
   for (const Command& command :
-       {Command(Run{}), Command(Step{}), Command(Pause{}), Command(Reset{}), Command(StepBack{}), Command(Undo{}),
+       {Command(model::Run{}), Command(Step{}), Command(Pause{}), Command(Reset{}), Command(StepBack{}), Command(Undo{}),
         Command(Redo{}), Command(Cancel{}), Command(SelectNextWorst{}), Command(CopyCommandLine{}),
         Command(SaveFile{folder / "x.off"})})
     do_and_wait(command);
@@ -298,7 +298,7 @@ TEST_F(SessionTest, ASessionCanEndWhileItsWorkerRuns) {
   open(20000);
   session.smoothing.iterations = 1000000;
   session.smoothing.tolerance = 0;
-  execute(session, Run{});
+  execute(session, model::Run{});
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
