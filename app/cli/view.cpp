@@ -17,8 +17,10 @@ class ViewCommand : public Command {
   [[nodiscard]] std::string name() const override { return "view"; }
   [[nodiscard]] std::string summary() const override { return "Open the editor"; }
   [[nodiscard]] std::string notes() const override {
-    return "The editor shows the mesh, its quality and its smoothing live; press ? in it for all keys. Several files:\n"
-           "the first is opened, the others stand in the list of recent files. The window needs a display; --screenshot\n"
+    return "The editor shows the mesh, its quality and its smoothing live; press ? in it for all keys. "
+           "Several files:\n"
+           "the first is opened, the others stand in the list of recent files. The window needs a display; "
+           "--screenshot\n"
            "draws the whole editor into a PNG file without one.\n\n"
            "Examples:\n"
            "  isorelax view bunny.off\n"
@@ -27,7 +29,8 @@ class ViewCommand : public Command {
 
   void declare(CLI::App& app) override {
     app.add_option("files", files_, "Meshes: OFF, OBJ, PLY or STL")->type_name("FILE");
-    app.add_option("--screenshot", screenshot_, "Draw the editor into this PNG file instead of opening a window")
+    app.add_option("--screenshot", screenshot_,
+                   "Draw the editor into this PNG file instead of opening a window")
         ->type_name("PNG");
     app.add_option("--size", size_, "Size of the window or of the screenshot, in pixels")->type_name("WxH");
     app.add_option("--scale", scale_, "Screenshot: pixels per point, 2 for a high-resolution display")

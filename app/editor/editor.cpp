@@ -15,7 +15,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double kFlightSeconds = 0.3;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 ui::FontFiles font_files() {
   const std::string_view regular = render::embedded_file("Inter-Regular.otf");
@@ -60,7 +62,8 @@ void Editor::frame(const FrameOptions& options) {
   if (has_picture_)
     image.texture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(renderer_.color_texture()));
   carry_out(interface_.frame(
-      session_, {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
+      session_,
+      {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
   const auto before_paint = Clock::now();
   painter_.paint(interface_, options.size);
   drawing += seconds_since(before_paint);
@@ -101,8 +104,14 @@ void Editor::draw_mesh() {
     has_picture_ = false;
     return;
   }
-  const PictureKey key{session_.current->geometry.get(), session_.current->energy.get(), session_.view,
-                       session_.color_range(), camera_, viewport_, session_.selected_triangle, scale_};
+  const PictureKey key{session_.current->geometry.get(),
+                       session_.current->energy.get(),
+                       session_.view,
+                       session_.color_range(),
+                       camera_,
+                       viewport_,
+                       session_.selected_triangle,
+                       scale_};
   if (has_picture_ && key == drawn_) return;
   try {
     renderer_.draw(scene_.make(session_, scale_), camera_, viewport_);
@@ -130,7 +139,8 @@ void Editor::carry_out_request(const ui::Request& request) {
     flight_.reset();
     camera_ = render::zoom_to(camera_, zoom->factor, zoom->x, zoom->y, viewport_);
   } else if (std::holds_alternative<ui::FrameView>(request)) {
-    if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), viewport_, fit_options()));
+    if (session_.current)
+      fly_to(render::fit(camera_, session_.current->positions(), viewport_, fit_options()));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));
@@ -152,6 +162,8 @@ void Editor::save_picture(const std::filesystem::path& path) {
   }
 }
 
-bool Editor::is_restless() const { return acted_ || flight_.has_value() || interface_.is_restless(); }
+bool Editor::is_restless() const {
+  return acted_ || flight_.has_value() || interface_.is_restless();
+}
 
 }  // namespace isorelax::editor

@@ -21,11 +21,11 @@ class Editor {
 
   struct FrameOptions {
     render::PictureSize size;
-    float scale = 1;    ///< pixels per point
-    double time = 0;    ///< seconds, ascending
+    float scale = 1;  ///< pixels per point
+    double time = 0;  ///< seconds, ascending
   };
-  /// Takes over what the worker did, draws the mesh if anything about it changed, runs the interface, carries out
-  /// what it asks for, and paints all of it into a framebuffer.
+  /// Takes over what the worker did, draws the mesh if anything about it changed, runs the interface, carries
+  /// out what it asks for, and paints all of it into a framebuffer.
   void frame(const FrameOptions& options);
   /// Copies the last frame to the window's framebuffer.
   void show(render::PictureSize window) const { painter_.show(window); }

@@ -27,10 +27,14 @@ GLuint compile(GLenum kind, std::string_view source, const char* name) {
   throw Error(std::string(name) + ": " + log);
 }
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
 
 // Textures travel through Dear ImGui as pointers.
-GLuint texture_of(ImTextureID id) { return static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(id)); }
+GLuint texture_of(ImTextureID id) {
+  return static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(id));
+}
 
 }  // namespace
 
@@ -94,7 +98,8 @@ void Painter::resize(render::PictureSize size) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_, 0);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error("OpenGL refuses a framebuffer of " + std::to_string(size.width) + "x" + std::to_string(size.height));
+    throw Error("OpenGL refuses a framebuffer of " + std::to_string(size.width) + "x" +
+                std::to_string(size.height));
 }
 
 void Painter::upload_atlas(ui::Interface& interface) {
@@ -144,8 +149,8 @@ void Painter::draw(const ImDrawData& data) const {
   constexpr GLenum kIndexType = sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
   for (int n = 0; n < data.CmdListsCount; ++n) {
     const ImDrawList& list = *data.CmdLists[n];
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.VtxBuffer.size_in_bytes()), list.VtxBuffer.Data,
-                 GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.VtxBuffer.size_in_bytes()),
+                 list.VtxBuffer.Data, GL_STREAM_DRAW);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.IdxBuffer.size_in_bytes()),
                  list.IdxBuffer.Data, GL_STREAM_DRAW);
     for (const ImDrawCmd& command : list.CmdBuffer) {
@@ -155,7 +160,8 @@ void Painter::draw(const ImDrawData& data) const {
                 static_cast<GLsizei>(clip.z - clip.x), static_cast<GLsizei>(clip.w - clip.y));
       glBindTexture(GL_TEXTURE_2D, texture_of(command.GetTexID()));
       glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), kIndexType,
-                               offset(command.IdxOffset * sizeof(ImDrawIdx)), static_cast<GLint>(command.VtxOffset));
+                               offset(command.IdxOffset * sizeof(ImDrawIdx)),
+                               static_cast<GLint>(command.VtxOffset));
     }
   }
 }

@@ -9,8 +9,8 @@
 
 namespace isorelax::editor {
 
-/// Draws the interface into a framebuffer of its own with OpenGL 3.3 core: the same pixels in a window and without
-/// one. Needs the context that was current at construction.
+/// Draws the interface into a framebuffer of its own with OpenGL 3.3 core: the same pixels in a window and
+/// without one. Needs the context that was current at construction.
 class Painter {
  public:
   explicit Painter(render::GlLoader loader);

@@ -15,8 +15,8 @@ struct ScreenshotOptions {
   unsigned iterations = 0;  ///< done before the picture is taken
 };
 
-/// A picture of the whole editor, drawn without a display. Throws Error when the file cannot be read, a run fails or
-/// there is no OpenGL.
+/// A picture of the whole editor, drawn without a display. Throws Error when the file cannot be read, a run
+/// fails or there is no OpenGL.
 [[nodiscard]] render::Image take_screenshot(const ScreenshotOptions& options);
 
 }  // namespace isorelax::editor

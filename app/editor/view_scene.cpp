@@ -42,7 +42,7 @@ render::Coloring coloring_of(const model::Session& session, render::Quantity qua
   }
   if (view.reversed)
     coloring.direction = coloring.direction == render::MapDirection::forward ? render::MapDirection::reversed
-                                                                            : render::MapDirection::forward;
+                                                                             : render::MapDirection::forward;
   return coloring;
 }
 
@@ -53,7 +53,8 @@ render::Scene ViewScene::make(const model::Session& session, float pixels_per_po
   const bool other_document = document_ != session.document;
   if (other_document) triangles_ = render::next_revision();
   if (geometry_ != state.geometry) positions_ = render::next_revision();
-  if (geometry_ != state.geometry || energy_ != state.energy || coloring_ != session.view.coloring || other_document)
+  if (geometry_ != state.geometry || energy_ != state.energy || coloring_ != session.view.coloring ||
+      other_document)
     values_ = render::next_revision();
   document_ = session.document;
   geometry_ = state.geometry;
@@ -70,7 +71,8 @@ render::Scene ViewScene::make(const model::Session& session, float pixels_per_po
   mesh.positions_revision = positions_;
   mesh.triangles_revision = triangles_;
   mesh.values_revision = values_;
-  mesh.shading = session.view.shading == model::Shading::flat ? render::Shading::flat : render::Shading::smooth;
+  mesh.shading =
+      session.view.shading == model::Shading::flat ? render::Shading::flat : render::Shading::smooth;
   mesh.wire.shown = session.view.wire;
   mesh.marked_edges.color = {205, 211, 222};
   mesh.marked_edges.width = 1.6;
@@ -106,7 +108,8 @@ render::Camera look_at_triangle(const render::Camera& camera, const model::Sessi
   constexpr double kDegrees = 180 / std::numbers::pi;
   const bool y_up = camera.up == render::UpAxis::y;
   result.azimuth_deg = kDegrees * (y_up ? std::atan2(n.x(), n.z()) : std::atan2(n.x(), -n.y()));
-  result.elevation_deg = std::clamp(kDegrees * std::asin(std::clamp(y_up ? n.y() : n.z(), -1.0, 1.0)), -80.0, 80.0);
+  result.elevation_deg =
+      std::clamp(kDegrees * std::asin(std::clamp(y_up ? n.y() : n.z(), -1.0, 1.0)), -80.0, 80.0);
   return result;
 }
 

@@ -6,8 +6,8 @@
 
 namespace isorelax::editor {
 
-/// The session's mesh as the renderer wants it. Remembers which content it saw last, so that nothing is uploaded
-/// twice.
+/// The session's mesh as the renderer wants it. Remembers which content it saw last, so that nothing is
+/// uploaded twice.
 class ViewScene {
  public:
   /// The scene as the session is now. The spans in it live as long as the session's states. Precondition:

@@ -56,12 +56,12 @@ struct SetRecent {
 /// Takes over what the worker has published. Never waits.
 struct Collect {};
 
-using Command = std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset, StepBack,
-                             Undo, Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine, Say,
-                             SetRecent, Collect>;
+using Command =
+    std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset, StepBack, Undo,
+                 Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine, Say, SetRecent, Collect>;
 
-/// The only writer of a session. Returns at once: long work goes to the session's worker, and its results come with a
-/// later Collect. Throws nothing; what cannot be done becomes a message.
+/// The only writer of a session. Returns at once: long work goes to the session's worker, and its results
+/// come with a later Collect. Throws nothing; what cannot be done becomes a message.
 void execute(Session& session, const Command& command);
 
 /// Executes Collect until the worker is idle: for tests and for pictures without a window.

@@ -8,21 +8,27 @@
 
 namespace isorelax::model {
 
-bool JobContext::cancelled() const { return engine_.cancelled_; }
+bool JobContext::cancelled() const {
+  return engine_.cancelled_;
+}
 
 void JobContext::progress(std::string label, double share) const {
   const std::scoped_lock lock(engine_.mutex_);
   engine_.progress_ = {true, std::move(label), share};
 }
 
-void JobContext::publish(Event event) const { engine_.publish(std::move(event)); }
+void JobContext::publish(Event event) const {
+  engine_.publish(std::move(event));
+}
 
 bool JobContext::view_is_waiting() const {
   const std::scoped_lock lock(engine_.mutex_);
   return engine_.events_.empty();
 }
 
-Workbench& JobContext::bench() const { return engine_.bench_; }
+Workbench& JobContext::bench() const {
+  return engine_.bench_;
+}
 
 Engine::Engine() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -33,7 +39,8 @@ Engine::~Engine() {
 
 void Engine::post(std::string key, Job job) {
   const std::scoped_lock lock(mutex_);
-  const auto same = std::ranges::find_if(waiting_, [&](const Waiting& w) { return !key.empty() && w.key == key; });
+  const auto same =
+      std::ranges::find_if(waiting_, [&](const Waiting& w) { return !key.empty() && w.key == key; });
   if (same != waiting_.end()) waiting_.erase(same);
   waiting_.push_back({std::move(key), std::move(job)});
   changed_.notify_all();

@@ -31,7 +31,8 @@ class JobContext {
   [[nodiscard]] bool cancelled() const;
   void progress(std::string label, double share) const;
   void publish(Event event) const;
-  /// Whether the view has taken everything published so far. A run measures a new state for the view only then.
+  /// Whether the view has taken everything published so far. A run measures a new state for the view only
+  /// then.
   [[nodiscard]] bool view_is_waiting() const;
   [[nodiscard]] Workbench& bench() const;
 
@@ -39,8 +40,8 @@ class JobContext {
   Engine& engine_;
 };
 
-/// One worker thread that runs jobs in order and hands their events to whoever collects them. Collecting and posting
-/// never wait for a job.
+/// One worker thread that runs jobs in order and hands their events to whoever collects them. Collecting and
+/// posting never wait for a job.
 class Engine {
  public:
   using Job = std::function<void(JobContext&)>;

@@ -62,21 +62,29 @@ void Executor::operator()(const SetSmoothing& command) {
   measure_energy_if_changed();
 }
 
-void Executor::operator()(const EndEdit& /*command*/) { s_.undo.stop_merging(); }
+void Executor::operator()(const EndEdit& /*command*/) {
+  s_.undo.stop_merging();
+}
 
-void Executor::operator()(const SetView& command) { s_.view = command.view; }
+void Executor::operator()(const SetView& command) {
+  s_.view = command.view;
+}
 
 void Executor::operator()(const Run& /*command*/) {
   start_run(s_.remaining > 0 ? s_.remaining : s_.smoothing.iterations);
 }
 
-void Executor::operator()(const Step& /*command*/) { start_run(1); }
+void Executor::operator()(const Step& /*command*/) {
+  start_run(1);
+}
 
 void Executor::operator()(const Pause& /*command*/) {
   if (s_.is_running()) s_.engine.cancel();
 }
 
-void Executor::operator()(const Cancel& /*command*/) { s_.engine.cancel(); }
+void Executor::operator()(const Cancel& /*command*/) {
+  s_.engine.cancel();
+}
 
 void Executor::start_run(unsigned iterations) {
   if (!s_.current) {
@@ -92,8 +100,8 @@ void Executor::start_run(unsigned iterations) {
   // A new series starts where this one will: the plots need its first point.
   if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
     const QualityReport& q = s_.current->quality();
-    s_.history.push_back({s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0,
-                          s_.series});
+    s_.history.push_back(
+        {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
   }
   s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series}));
 }
@@ -103,8 +111,8 @@ void Executor::end_run() {
   s_.activity = Activity::idle;
   if (was_running && s_.run_start_ && s_.run_start_->geometry != s_.current->geometry) {
     const unsigned done = s_.current->iteration - s_.run_start_->iteration;
-    s_.undo.push({count_label(done), PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_),
-                                                     s_.history}});
+    s_.undo.push({count_label(done),
+                  PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_), s_.history}});
   }
   s_.run_start_.reset();
   s_.rows_at_start_.clear();
@@ -204,7 +212,9 @@ void Executor::operator()(const CopyCommandLine& /*command*/) {
   say(MessageKind::info, "Copied: " + s_.command_line);
 }
 
-void Executor::operator()(const Say& command) { say(command.message.kind, command.message.text); }
+void Executor::operator()(const Say& command) {
+  say(command.message.kind, command.message.text);
+}
 
 void Executor::operator()(const SetRecent& command) {
   s_.recent = command.paths;
@@ -281,7 +291,8 @@ void Executor::operator()(EnergyMeasured& event) {
   ++s_.series;
   if (s_.history.size() <= 1 && s_.current->geometry == s_.original->geometry) {
     const QualityReport& q = s_.current->quality();
-    s_.history = {{s_.current->iteration, event.current->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series}};
+    s_.history = {
+        {s_.current->iteration, event.current->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series}};
   }
 }
 
@@ -320,7 +331,9 @@ void Executor::operator()(Failed& event) {
   if (s_.activity != Activity::running) s_.activity = Activity::idle;
 }
 
-void execute(Session& session, const Command& command) { std::visit(Executor(session), command); }
+void execute(Session& session, const Command& command) {
+  std::visit(Executor(session), command);
+}
 
 void finish(Session& session) {
   while (true) {

@@ -52,8 +52,8 @@ ValueRange MeshState::range(Coloring coloring) const {
 }
 
 std::size_t MeshState::bytes() const {
-  std::size_t total = sizeof(Vec3) * geometry->positions.size() +
-                      sizeof(double) * 3 * geometry->min_angle_values.size();
+  std::size_t total =
+      sizeof(Vec3) * geometry->positions.size() + sizeof(double) * 3 * geometry->min_angle_values.size();
   if (energy) total += sizeof(double) * energy->values.size();
   return total;
 }

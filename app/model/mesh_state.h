@@ -12,8 +12,8 @@
 
 namespace isorelax::model {
 
-/// One set of positions with everything about it that does not depend on settings. Immutable once made, so that the
-/// worker, the undo list and the view share it without copies.
+/// One set of positions with everything about it that does not depend on settings. Immutable once made, so
+/// that the worker, the undo list and the view share it without copies.
 struct Geometry {
   std::vector<Vec3> positions;
   QualityReport quality;
@@ -27,7 +27,7 @@ struct Geometry {
 /// The energy of a geometry under given settings.
 struct EnergyState {
   SmoothingSettings settings;
-  double total = 0;           ///< over the triangles that a run treats
+  double total = 0;            ///< over the triangles that a run treats
   std::vector<double> values;  ///< E of each triangle; infinite where it has no area
   ValueRange range;
 };
@@ -62,8 +62,8 @@ struct WorstAngles {
   double min_deg = 0;
   double max_deg = 180;
 };
-/// Smallest and largest angle of the mesh: what `measure_quality` finds, at the price of two arc tangents for the whole
-/// mesh, so that every iteration can afford it.
+/// Smallest and largest angle of the mesh: what `measure_quality` finds, at the price of two arc tangents for
+/// the whole mesh, so that every iteration can afford it.
 [[nodiscard]] WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 /// Smallest interval that holds the finite values; {0, 1} when there are none, and never of no length.

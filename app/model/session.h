@@ -55,14 +55,16 @@ struct Session {
   /// Extent of each colouring's values over all states since the file was opened.
   std::array<ValueRange, kColorings> run_range{};
   std::optional<Index> selected_triangle;
-  std::size_t worst_rank = 0;  ///< which of the worst triangles is selected, from 1
+  std::size_t worst_rank = 0;                 ///< which of the worst triangles is selected, from 1
   std::vector<std::filesystem::path> recent;  ///< newest first
   std::string command_line;                   ///< what was last asked for with CopyCommandLine
 
   Engine engine;
 
   /// Whether the current positions are in no file.
-  [[nodiscard]] bool has_unsaved_changes() const { return current && saved && current->geometry != saved->geometry; }
+  [[nodiscard]] bool has_unsaved_changes() const {
+    return current && saved && current->geometry != saved->geometry;
+  }
   [[nodiscard]] bool is_running() const { return activity == Activity::running; }
   [[nodiscard]] bool can_smooth() const { return current && activity == Activity::idle; }
   /// The ends of the colour scale under the view's range mode.

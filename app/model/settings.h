@@ -9,7 +9,8 @@
 
 namespace isorelax::model {
 
-/// Which reference triangles are asked for; the edge length or the file stands beside it in SmoothingSettings.
+/// Which reference triangles are asked for; the edge length or the file stands beside it in
+/// SmoothingSettings.
 enum class ReferenceKind : std::uint8_t { mean_area, edge_length, initial, file };
 
 /// Which creases are kept: those of the library's own thresholds, none, or those that turn by a given angle.

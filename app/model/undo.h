@@ -25,8 +25,9 @@ struct UndoEntry {
   std::variant<SettingsChange, PositionsChange> change;
 };
 
-/// What can be undone and redone, in the order in which it was done. Settings and positions are entries of their own:
-/// undoing one never touches the other. Keeps as much as fits in its memory budget and forgets the oldest first.
+/// What can be undone and redone, in the order in which it was done. Settings and positions are entries of
+/// their own: undoing one never touches the other. Keeps as much as fits in its memory budget and forgets the
+/// oldest first.
 class UndoList {
  public:
   static constexpr std::size_t kDefaultBudget = std::size_t{1} << 30U;  // bytes
@@ -40,7 +41,9 @@ class UndoList {
   void stop_merging() { merging_ = false; }
 
   /// The entry that Undo takes back; null when there is none.
-  [[nodiscard]] const UndoEntry* next_undo() const { return position_ > 0 ? &entries_[position_ - 1] : nullptr; }
+  [[nodiscard]] const UndoEntry* next_undo() const {
+    return position_ > 0 ? &entries_[position_ - 1] : nullptr;
+  }
   [[nodiscard]] const UndoEntry* next_redo() const {
     return position_ < entries_.size() ? &entries_[position_] : nullptr;
   }

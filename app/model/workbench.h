@@ -8,10 +8,11 @@
 
 namespace isorelax::model {
 
-/// The frozen problem of the open document, kept between runs while settings stay the same. Belongs to the worker.
+/// The frozen problem of the open document, kept between runs while settings stay the same. Belongs to the
+/// worker.
 ///
-/// The problem is always made from the mesh as it was opened, so that a run that was paused and continued goes where
-/// one long run goes.
+/// The problem is always made from the mesh as it was opened, so that a run that was paused and continued
+/// goes where one long run goes.
 class Workbench {
  public:
   /// The problem for these settings; made anew only when they ask for another one. Throws Error.

@@ -19,7 +19,9 @@ bool begin_dialog(const Ui& ui, const char* name, float width) {
   return open;
 }
 
-bool escape_pressed() { return ImGui::IsKeyPressed(static_cast<int>(Key::escape), false); }
+bool escape_pressed() {
+  return ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
+}
 
 void draw_shortcut_group(const Ui& ui, std::string_view group) {
   text_in(ui.fonts.heading, color::kAccent, group);
@@ -53,7 +55,8 @@ void draw_pointer_help(const Ui& ui) {
 // After the answer: what was waiting happens.
 void go_on(const Ui& ui) {
   if (std::holds_alternative<PendingQuit>(ui.state.pending)) ui.request(Quit{});
-  if (const auto* path = std::get_if<std::filesystem::path>(&ui.state.pending)) ui.command(model::OpenFile{*path});
+  if (const auto* path = std::get_if<std::filesystem::path>(&ui.state.pending))
+    ui.command(model::OpenFile{*path});
   ui.state.pending = std::monostate{};
 }
 
@@ -74,8 +77,10 @@ void draw_help(const Ui& ui) {
   draw_pointer_help(ui);
   ImGui::Columns(1);
   ImGui::PopStyleVar();
-  mark_area(ui, "help-page", {ImGui::GetWindowPos(), {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
-                                                      ImGui::GetWindowPos().y + ImGui::GetWindowHeight()}});
+  mark_area(ui, "help-page",
+            {ImGui::GetWindowPos(),
+             {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
+              ImGui::GetWindowPos().y + ImGui::GetWindowHeight()}});
   ImGui::Dummy({0, ui.px(4)});
   ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ui.px(22 + 98));
   if (button(ui, "help-close", "Close", {.look = ButtonLook::accent, .width = ui.px(98)}) || escape_pressed())

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
-
 
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -18,10 +17,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTitle = "file-browser";
 
-bool saves(FilePurpose purpose) { return purpose == FilePurpose::save_mesh || purpose == FilePurpose::save_picture; }
+bool saves(FilePurpose purpose) {
+  return purpose == FilePurpose::save_mesh || purpose == FilePurpose::save_picture;
+}
 
 std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -132,8 +134,9 @@ void accept(const Ui& ui) {
     return;
   }
   if (!fits(browser.purpose, path))
-    browser.error = browser.purpose == FilePurpose::save_picture ? "The name of a picture ends in .png"
-                                                                 : "The name ends in .off, .obj, .ply or .stl";
+    browser.error = browser.purpose == FilePurpose::save_picture
+                        ? "The name of a picture ends in .png"
+                        : "The name ends in .off, .obj, .ply or .stl";
   else if (!fs::is_directory(path.parent_path(), error))
     browser.error = path.parent_path().string() + ": there is no such folder";
   else if (exists)
@@ -195,14 +198,15 @@ void open_entry(const Ui& ui, int index) {
 void draw_entries(const Ui& ui, float height) {
   FileBrowser& browser = ui.state.browser;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, to_vec4(color::kBackdrop));
-  ImGui::BeginChild("entries", {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
+  ImGui::BeginChild("entries", {0, height}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
   if (browser.entries.empty()) text_in(ui.fonts.text, color::kTextFaint, "No meshes here.");
   int opened = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(browser.entries.size()), ImGui::GetTextLineHeightWithSpacing());
   if (browser.scroll_to_selected && browser.selected >= 0)
-    ImGui::SetScrollY(std::max(0.0F, static_cast<float>(browser.selected) * ImGui::GetTextLineHeightWithSpacing() -
-                                         0.5F * height));
+    ImGui::SetScrollY(std::max(
+        0.0F, static_cast<float>(browser.selected) * ImGui::GetTextLineHeightWithSpacing() - 0.5F * height));
   browser.scroll_to_selected = false;
   while (clipper.Step()) {
     for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
@@ -233,9 +237,9 @@ void browse_by_keyboard(const Ui& ui) {
   int step = 0;
   if (ImGui::IsKeyPressed(static_cast<int>(Key::down))) step = 1;
   if (ImGui::IsKeyPressed(static_cast<int>(Key::up))) step = -1;
-  if (step != 0 && count > 0)
-    select(browser, std::clamp(browser.selected + step, 0, count - 1));
-  if (ImGui::IsKeyPressed(static_cast<int>(Key::backspace)) && browser.name.empty() && !ImGui::IsAnyItemActive())
+  if (step != 0 && count > 0) select(browser, std::clamp(browser.selected + step, 0, count - 1));
+  if (ImGui::IsKeyPressed(static_cast<int>(Key::backspace)) && browser.name.empty() &&
+      !ImGui::IsAnyItemActive())
     enter(browser, browser.folder.parent_path());
   if (!ImGui::IsKeyPressed(static_cast<int>(Key::enter), false)) return;
   if (!browser.overwrite.empty())
@@ -274,7 +278,8 @@ void draw_name_line(const Ui& ui) {
 void draw_answers(const Ui& ui) {
   FileBrowser& browser = ui.state.browser;
   const bool asks = !browser.overwrite.empty();
-  const std::string note = asks ? browser.overwrite.filename().string() + " exists. Replace it?" : browser.error;
+  const std::string note =
+      asks ? browser.overwrite.filename().string() + " exists. Replace it?" : browser.error;
   ImGui::AlignTextToFramePadding();
   ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - ui.px(240));
   text_in(ui.fonts.text, asks ? color::kWarning : color::kWorse, note);
@@ -306,7 +311,8 @@ void ask_for_file(const Ui& ui, FilePurpose purpose) {
     const std::string stem = path.stem().string();
     if (purpose == FilePurpose::save_picture) browser.name = stem + ".png";
     if (purpose == FilePurpose::save_mesh)
-      browser.name = ui.session.save_path ? path.filename().string() : stem + "-smooth" + path.extension().string();
+      browser.name =
+          ui.session.save_path ? path.filename().string() : stem + "-smooth" + path.extension().string();
     if (browser.folder.empty()) folder = fs::absolute(path, error).parent_path();
   }
   enter(browser, folder);
@@ -322,8 +328,8 @@ void draw_file_browser(const Ui& ui) {
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(18), ui.px(16)});
   if (ImGui::BeginPopupModal(kTitle, nullptr,
-                             ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                 ImGuiWindowFlags_NoSavedSettings)) {
+                             ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     text_in(ui.fonts.title, color::kText, title(browser.purpose));
     ImGui::Dummy({0, ui.px(2)});
     draw_folder_line(ui);

@@ -38,8 +38,12 @@ void turn_arrow(const Pen& pen, float side) {
 void draw_document_icon(const Pen& pen, Icon icon) {
   switch (icon) {
     case Icon::open:
-      pen.line(std::array<ImVec2, 6>{{{-0.95F, 0.7F}, {-0.95F, -0.65F}, {-0.3F, -0.65F}, {-0.05F, -0.35F},
-                                      {0.95F, -0.35F}, {0.95F, 0.7F}}},
+      pen.line(std::array<ImVec2, 6>{{{-0.95F, 0.7F},
+                                      {-0.95F, -0.65F},
+                                      {-0.3F, -0.65F},
+                                      {-0.05F, -0.35F},
+                                      {0.95F, -0.35F},
+                                      {0.95F, 0.7F}}},
                ImDrawFlags_Closed);
       break;
     case Icon::save:
@@ -50,7 +54,8 @@ void draw_document_icon(const Pen& pen, Icon icon) {
     case Icon::picture:
       pen.line(std::array<ImVec2, 4>{{{-0.95F, -0.7F}, {0.95F, -0.7F}, {0.95F, 0.7F}, {-0.95F, 0.7F}}},
                ImDrawFlags_Closed);
-      pen.line(std::array<ImVec2, 5>{{{-0.9F, 0.5F}, {-0.3F, -0.1F}, {0.1F, 0.3F}, {0.45F, 0.0F}, {0.9F, 0.45F}}});
+      pen.line(
+          std::array<ImVec2, 5>{{{-0.9F, 0.5F}, {-0.3F, -0.1F}, {0.1F, 0.3F}, {0.45F, 0.0F}, {0.9F, 0.45F}}});
       break;
     default:
       break;
@@ -95,7 +100,8 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 center, float size, ImU32 col
     case Icon::frame:
       for (const float x : {-1.0F, 1.0F})
         for (const float y : {-1.0F, 1.0F})
-          pen.line(std::array<ImVec2, 3>{{{0.9F * x, 0.35F * y}, {0.9F * x, 0.9F * y}, {0.35F * x, 0.9F * y}}});
+          pen.line(
+              std::array<ImVec2, 3>{{{0.9F * x, 0.35F * y}, {0.9F * x, 0.9F * y}, {0.35F * x, 0.9F * y}}});
       pen.bar(-0.22F, -0.22F, 0.22F, 0.22F);
       break;
     case Icon::wire:

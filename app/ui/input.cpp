@@ -27,7 +27,8 @@ bool InputQueue::fits(const InputEvent& event) {
                                },
                                [](const WheelTurned&) { return true; },
                                [&](const KeyChanged& e) {
-                                 if (std::ranges::find(changed_keys_, e.key) != changed_keys_.end()) return false;
+                                 if (std::ranges::find(changed_keys_, e.key) != changed_keys_.end())
+                                   return false;
                                  changed_keys_.push_back(e.key);
                                  return true;
                                },
@@ -36,7 +37,9 @@ bool InputQueue::fits(const InputEvent& event) {
 }
 
 void InputQueue::apply(ImGuiIO& io, const InputEvent& event) {
-  std::visit(Overloaded{[&](const PointerMoved& e) { io.MousePos = {e.x, e.y}; },
+  std::visit(Overloaded{[&](const PointerMoved& e) {
+                          io.MousePos = {e.x, e.y};
+                        },
                         [&](const ButtonChanged& e) { io.MouseDown[e.button] = e.down; },
                         [&](const WheelTurned& e) {
                           io.MouseWheelH += e.x;
@@ -56,13 +59,27 @@ void InputQueue::apply(ImGuiIO& io, const KeyChanged& event, bool hidden) {
 
 void map_keys(ImGuiIO& io) {
   constexpr std::array<std::pair<ImGuiKey, Key>, 22> kMap{{
-      {ImGuiKey_Tab, Key::tab},           {ImGuiKey_LeftArrow, Key::left}, {ImGuiKey_RightArrow, Key::right},
-      {ImGuiKey_UpArrow, Key::up},        {ImGuiKey_DownArrow, Key::down}, {ImGuiKey_PageUp, Key::page_up},
-      {ImGuiKey_PageDown, Key::page_down}, {ImGuiKey_Home, Key::home},     {ImGuiKey_End, Key::end},
-      {ImGuiKey_Insert, Key::insert},     {ImGuiKey_Delete, Key::erase},   {ImGuiKey_Backspace, Key::backspace},
-      {ImGuiKey_Space, Key::space},       {ImGuiKey_Enter, Key::enter},    {ImGuiKey_Escape, Key::escape},
-      {ImGuiKey_A, Key::a},               {ImGuiKey_C, Key::c},            {ImGuiKey_V, Key::v},
-      {ImGuiKey_X, Key::x},               {ImGuiKey_Y, Key::y},            {ImGuiKey_Z, Key::z},
+      {ImGuiKey_Tab, Key::tab},
+      {ImGuiKey_LeftArrow, Key::left},
+      {ImGuiKey_RightArrow, Key::right},
+      {ImGuiKey_UpArrow, Key::up},
+      {ImGuiKey_DownArrow, Key::down},
+      {ImGuiKey_PageUp, Key::page_up},
+      {ImGuiKey_PageDown, Key::page_down},
+      {ImGuiKey_Home, Key::home},
+      {ImGuiKey_End, Key::end},
+      {ImGuiKey_Insert, Key::insert},
+      {ImGuiKey_Delete, Key::erase},
+      {ImGuiKey_Backspace, Key::backspace},
+      {ImGuiKey_Space, Key::space},
+      {ImGuiKey_Enter, Key::enter},
+      {ImGuiKey_Escape, Key::escape},
+      {ImGuiKey_A, Key::a},
+      {ImGuiKey_C, Key::c},
+      {ImGuiKey_V, Key::v},
+      {ImGuiKey_X, Key::x},
+      {ImGuiKey_Y, Key::y},
+      {ImGuiKey_Z, Key::z},
       {ImGuiKey_KeyPadEnter, Key::enter},
   }};
   for (const auto& [imgui, key] : kMap) io.KeyMap[imgui] = static_cast<int>(key);

@@ -13,9 +13,43 @@ namespace isorelax::ui {
 /// The keys that the editor knows. A window maps its library's codes to these.
 enum class Key : std::uint8_t {
   none,
-  tab, left, right, up, down, page_up, page_down, home, end, insert, erase, backspace, space, enter, escape,
-  a, c, f, h, n, o, p, q, s, v, w, x, y, z,
-  digit1, digit2, digit3, digit4, digit5, question, f1, f12,
+  tab,
+  left,
+  right,
+  up,
+  down,
+  page_up,
+  page_down,
+  home,
+  end,
+  insert,
+  erase,
+  backspace,
+  space,
+  enter,
+  escape,
+  a,
+  c,
+  f,
+  h,
+  n,
+  o,
+  p,
+  q,
+  s,
+  v,
+  w,
+  x,
+  y,
+  z,
+  digit1,
+  digit2,
+  digit3,
+  digit4,
+  digit5,
+  question,
+  f1,
+  f12,
   count
 };
 
@@ -46,15 +80,15 @@ struct TextTyped {
 };
 using InputEvent = std::variant<PointerMoved, ButtonChanged, WheelTurned, KeyChanged, TextTyped>;
 
-/// Turns events into what one frame of the interface sees. Dear ImGui 1.86 reads the present state of keys and
-/// buttons: a click that begins and ends within one frame would be lost, so each change of a key or button that
-/// reverses an earlier one waits for the next frame.
+/// Turns events into what one frame of the interface sees. Dear ImGui 1.86 reads the present state of keys
+/// and buttons: a click that begins and ends within one frame would be lost, so each change of a key or
+/// button that reverses an earlier one waits for the next frame.
 class InputQueue {
  public:
   void push(InputEvent event) { events_.push_back(std::move(event)); }
   [[nodiscard]] bool empty() const { return events_.empty(); }
-  /// Writes this frame's input to `io` and returns the keys that went down in it. `captured(key)` says which keys are
-  /// kept from Dear ImGui because they are shortcuts now.
+  /// Writes this frame's input to `io` and returns the keys that went down in it. `captured(key)` says which
+  /// keys are kept from Dear ImGui because they are shortcuts now.
   template <typename Captured>
   std::vector<KeyChanged> next_frame(ImGuiIO& io, const Captured& captured) {
     std::vector<KeyChanged> pressed;

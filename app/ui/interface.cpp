@@ -11,11 +11,14 @@ namespace {
 
 // Keys that move between or work on controls, and are shortcuts while no control has the focus.
 bool drives_controls(Key key) {
-  constexpr std::array kKeys{Key::left, Key::right, Key::up, Key::down, Key::space, Key::enter, Key::home, Key::end};
+  constexpr std::array kKeys{Key::left,  Key::right, Key::up,   Key::down,
+                             Key::space, Key::enter, Key::home, Key::end};
   return std::ranges::find(kKeys, key) != kKeys.end();
 }
 
-bool dialog_open() { return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0; }
+bool dialog_open() {
+  return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0;
+}
 
 bool is_text_shortcut(const KeyChanged& press) {
   constexpr std::array kKeys{Key::a, Key::c, Key::v, Key::x, Key::z, Key::y};
@@ -35,7 +38,9 @@ Interface::Interface(const FontFiles& fonts) : font_files_(fonts), context_(ImGu
   map_keys(io);
 }
 
-Interface::~Interface() { ImGui::DestroyContext(context_); }
+Interface::~Interface() {
+  ImGui::DestroyContext(context_);
+}
 
 void Interface::prepare(const FrameOptions& options) {
   ImGui::SetCurrentContext(context_);

@@ -12,7 +12,8 @@ struct ImDrawData;
 
 namespace isorelax::ui {
 
-/// The whole interface: input in, commands, requests and triangles to draw out. Needs no window and no OpenGL.
+/// The whole interface: input in, commands, requests and triangles to draw out. Needs no window and no
+/// OpenGL.
 class Interface {
  public:
   explicit Interface(const FontFiles& fonts);
@@ -24,7 +25,7 @@ class Interface {
     ImVec2 display{1280, 720};  ///< pixels
     float scale = 1;            ///< pixels per point
     float seconds = 1.0F / 60;  ///< since the last frame
-      ViewportImage viewport{};
+    ViewportImage viewport{};
   };
   /// One frame. Reads the session, changes nothing in it: execute the commands that come back.
   Output frame(const model::Session& session, const FrameOptions& options);

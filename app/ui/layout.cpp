@@ -12,7 +12,8 @@ constexpr float kLargestPanel = 560;
 constexpr float kSmallestViewport = 160;
 
 // A thin invisible handle between a panel and the viewport; `direction` is the sign of growth to the right.
-void draw_splitter(const Ui& ui, const char* name, float x, const Rect& beside, float direction, float& width) {
+void draw_splitter(const Ui& ui, const char* name, float x, const Rect& beside, float direction,
+                   float& width) {
   const float half = ui.px(3);
   ImGui::SetNextWindowPos({x - half, beside.low.y});
   ImGui::SetNextWindowSize({2 * half, beside.height()});
@@ -29,7 +30,8 @@ void draw_splitter(const Ui& ui, const char* name, float x, const Rect& beside, 
                                               active ? color::kAccent : color::kControlActive);
   }
   if (active)
-    width = std::clamp(width + direction * ImGui::GetIO().MouseDelta.x / ui.scale, kSmallestPanel, kLargestPanel);
+    width =
+        std::clamp(width + direction * ImGui::GetIO().MouseDelta.x / ui.scale, kSmallestPanel, kLargestPanel);
   mark_area(ui, name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   ImGui::End();
   ImGui::PopStyleVar(2);

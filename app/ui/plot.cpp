@@ -39,8 +39,8 @@ struct KeyEntry {
 };
 
 void small_text(const Ui& ui, ImVec2 at, ImU32 color, const std::string& text) {
-  ImGui::GetWindowDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {std::floor(at.x), std::floor(at.y)},
-                                      color, text.c_str());
+  ImGui::GetWindowDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize,
+                                      {std::floor(at.x), std::floor(at.y)}, color, text.c_str());
 }
 
 float small_width(const Ui& ui, std::string_view text) {
@@ -51,8 +51,8 @@ float small_width(const Ui& ui, std::string_view text) {
 }
 
 // Title at the left, key at the right; reserves the plot's place. Returns the data's rectangle.
-Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title, std::span<const KeyEntry> key,
-                float height) {
+Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
+                std::span<const KeyEntry> key, float height) {
   const float line = ui.fonts.small->FontSize;
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -62,14 +62,15 @@ Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
     x -= small_width(ui, entry->label);
     small_text(ui, {x, low.y}, color::kTextDim, std::string(entry->label));
     x -= ui.px(14);
-    ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + 0.5F * line - ui.px(1)},
-                                              {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry->color);
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {x, low.y + 0.5F * line - ui.px(1)}, {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry->color);
     x -= ui.px(10);
   }
   const std::string id = "##plot-" + name;
   ImGui::InvisibleButton(id.c_str(), {width, height});
   const ImVec2 high = ImGui::GetItemRectMax();
-  const Rect area{{low.x + ui.px(42), low.y + line + ui.px(8)}, {high.x - ui.px(4), high.y - line - ui.px(5)}};
+  const Rect area{{low.x + ui.px(42), low.y + line + ui.px(8)},
+                  {high.x - ui.px(4), high.y - line - ui.px(5)}};
   mark_area(ui, name, area);
   return area;
 }
@@ -77,7 +78,8 @@ Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
 void draw_x_tick(const Ui& ui, const Frame& frame, double value, const std::string& text) {
   const float x = frame.x(value);
   const float width = small_width(ui, text);
-  const float at = std::clamp(x - 0.5F * width, frame.area.low.x - 0.5F * width, frame.area.high.x + ui.px(4) - width);
+  const float at =
+      std::clamp(x - 0.5F * width, frame.area.low.x - 0.5F * width, frame.area.high.x + ui.px(4) - width);
   small_text(ui, {at, frame.area.high.y + ui.px(4)}, color::kTextFaint, text);
   ImGui::GetWindowDrawList()->AddLine({x, frame.area.high.y}, {x, frame.area.high.y + ui.px(3)}, kAxis);
 }
@@ -100,7 +102,9 @@ void read_out(const Ui& ui, std::string_view first, std::span<const std::pair<st
 }
 
 void draw_line(ImDrawList& draw, const Frame& frame, const Line& line, PlotScale scale, float width) {
-  const auto value = [&](float y) { return scale == PlotScale::logarithmic ? std::log10(std::max(1e-300, double{y})) : y; };
+  const auto value = [&](float y) {
+    return scale == PlotScale::logarithmic ? std::log10(std::max(1e-300, double{y})) : y;
+  };
   std::vector<ImVec2> piece;
   const auto flush = [&] {
     if (piece.size() > 1)
@@ -122,8 +126,8 @@ void hover_lines(const Ui& ui, const Frame& frame, const LinePlot& plot) {
   if (!ImGui::IsItemHovered() || plot.lines.empty() || plot.lines.front().points.empty()) return;
   const auto& points = plot.lines.front().points;
   const float x = ImGui::GetIO().MousePos.x;
-  const auto nearest = std::ranges::min_element(
-      points, {}, [&](const ImVec2& p) { return std::abs(frame.x(p.x) - x); });
+  const auto nearest =
+      std::ranges::min_element(points, {}, [&](const ImVec2& p) { return std::abs(frame.x(p.x) - x); });
   const auto index = static_cast<std::size_t>(nearest - points.begin());
   const float at = std::floor(frame.x(nearest->x)) + 0.5F;
   ImGui::GetWindowDrawList()->AddLine({at, frame.area.low.y}, {at, frame.area.high.y}, kAxis);
@@ -147,7 +151,8 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
       step = m * power;
       break;
     }
-  for (double n = std::ceil(low / step - 1e-9) + 0.0; n * step <= high + 1e-9 * step; ++n) ticks.push_back(n * step);
+  for (double n = std::ceil(low / step - 1e-9) + 0.0; n * step <= high + 1e-9 * step; ++n)
+    ticks.push_back(n * step);
   return ticks;
 }
 
@@ -160,7 +165,8 @@ void draw_bars(const Ui& ui, const Bars& bars, float height) {
       {1, *std::ranges::max_element(bars.now), *std::ranges::max_element(bars.before)}));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (const double t : round_ticks(0, frame.y1, 2)) draw_y_tick(ui, frame, t, short_number(t));
-  for (const double t : bars.ticks) draw_x_tick(ui, frame, t, short_number(t) + (t == bars.ticks.back() ? bars.unit : ""));
+  for (const double t : bars.ticks)
+    draw_x_tick(ui, frame, t, short_number(t) + (t == bars.ticks.back() ? bars.unit : ""));
   const double bin = (bars.high - bars.low) / static_cast<double>(bars.now.size());
   std::vector<ImVec2> outline{{frame.area.low.x, frame.area.high.y}};
   for (std::size_t k = 0; k < bars.now.size(); ++k) {
@@ -168,13 +174,15 @@ void draw_bars(const Ui& ui, const Bars& bars, float height) {
     const float x0 = frame.x(from);
     const float x1 = frame.x(from + bin);
     if (bars.now[k] > 0)
-      draw.AddRectFilled({x0 + 0.5F, std::min(frame.y(static_cast<double>(bars.now[k])), frame.area.high.y - 1)},
-                         {x1 - 0.5F, frame.area.high.y}, kFill);
+      draw.AddRectFilled(
+          {x0 + 0.5F, std::min(frame.y(static_cast<double>(bars.now[k])), frame.area.high.y - 1)},
+          {x1 - 0.5F, frame.area.high.y}, kFill);
     const float y = frame.y(static_cast<double>(bars.before[k]));
     outline.insert(outline.end(), {{x0, y}, {x1, y}});
   }
   outline.push_back({frame.area.high.x, frame.area.high.y});
-  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()), kOutline, ImDrawFlags_None, ui.px(1.25F));
+  draw.AddPolyline(outline.data(), static_cast<int>(outline.size()), kOutline, ImDrawFlags_None,
+                   ui.px(1.25F));
   draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
   if (!ImGui::IsItemHovered()) return;
   const double at = (ImGui::GetIO().MousePos.x - frame.area.low.x) / frame.area.width();
@@ -207,9 +215,11 @@ void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
   std::vector<double> ticks = plot.ticks;
   if (ticks.empty() && !logarithmic) ticks = round_ticks(plot.low, plot.high, 3);
   if (ticks.empty())
-    for (double e = std::ceil(frame.y0); e <= frame.y1; e += std::max(1.0, std::floor((frame.y1 - frame.y0) / 3)))
+    for (double e = std::ceil(frame.y0); e <= frame.y1;
+         e += std::max(1.0, std::floor((frame.y1 - frame.y0) / 3)))
       ticks.push_back(std::pow(10.0, e));
-  for (const double t : ticks) draw_y_tick(ui, frame, logarithmic ? std::log10(t) : t, short_number(t) + plot.unit);
+  for (const double t : ticks)
+    draw_y_tick(ui, frame, logarithmic ? std::log10(t) : t, short_number(t) + plot.unit);
   for (const double t : round_ticks(0, frame.x1, 4))
     if (t == std::floor(t)) draw_x_tick(ui, frame, t, short_number(t));
   ImDrawList& draw = *ImGui::GetWindowDrawList();

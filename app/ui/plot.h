@@ -12,9 +12,9 @@ namespace isorelax::ui {
 [[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
 
 struct Bars {
-  std::string name{};   ///< identity, and what a test finds
+  std::string name{};  ///< identity, and what a test finds
   std::string title{};
-  std::string unit{};   ///< of the horizontal axis
+  std::string unit{};  ///< of the horizontal axis
   std::span<const std::size_t> now{}, before{};
   double low = 0, high = 1;
   std::vector<double> ticks{};

@@ -26,9 +26,10 @@ std::array<Figure, 9> figures(const model::MeshState& original, const model::Mes
   const QualityReport& b = current.quality();
   const double nothing = std::nan("");
   return {{
-      {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f", "\xC2\xB0"},
-      {"Largest angle", "Largest angle of all triangles.", a.max_angle_deg, b.max_angle_deg, "%.2f", "\xC2\xB0",
-       Better::smaller},
+      {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f",
+       "\xC2\xB0"},
+      {"Largest angle", "Largest angle of all triangles.", a.max_angle_deg, b.max_angle_deg, "%.2f",
+       "\xC2\xB0", Better::smaller},
       {"Mean smallest", "Mean over the triangles of each one's smallest angle.", a.mean_min_angle_deg,
        b.mean_min_angle_deg, "%.2f", "\xC2\xB0"},
       {"Under 20\xC2\xB0", "Share of triangles with an angle under 20 degrees.", 100 * a.below_20_deg,
@@ -37,13 +38,13 @@ std::array<Figure, 9> figures(const model::MeshState& original, const model::Mes
        100 * b.below_30_deg, "%.2f", " %", Better::smaller},
       {"Over 120\xC2\xB0", "Share of triangles with an angle over 120 degrees.", 100 * a.above_120_deg,
        100 * b.above_120_deg, "%.2f", " %", Better::smaller},
-      {"Area spread", "Standard deviation of the areas over their mean.", a.area_std_over_mean, b.area_std_over_mean,
-       "%.3f", "", Better::smaller},
+      {"Area spread", "Standard deviation of the areas over their mean.", a.area_std_over_mean,
+       b.area_std_over_mean, "%.3f", "", Better::smaller},
       {"Inverted", "Triangles that lie upside down.", static_cast<double>(a.inverted),
        static_cast<double>(b.inverted), "%.0f", "", Better::smaller},
       {"Energy", "Sum of the energies of all treated triangles; what a run makes smaller.",
-       original.energy ? original.energy->total : nothing, current.energy ? current.energy->total : nothing, "%.6g",
-       "", Better::smaller},
+       original.energy ? original.energy->total : nothing, current.energy ? current.energy->total : nothing,
+       "%.6g", "", Better::smaller},
   }};
 }
 
@@ -93,19 +94,32 @@ void draw_table(const Ui& ui) {
 void draw_histograms(const Ui& ui, float height) {
   const model::Geometry& before = *ui.session.original->geometry;
   const model::Geometry& now = *ui.session.current->geometry;
-  draw_bars(ui, {.name = "angle-histogram", .title = "SMALLEST ANGLES", .unit = "\xC2\xB0",
-                 .now = now.min_angle.counts, .before = before.min_angle.counts, .low = now.min_angle.low,
-                 .high = now.min_angle.high, .ticks = {0, 15, 30, 45, 60}},
+  draw_bars(ui,
+            {.name = "angle-histogram",
+             .title = "SMALLEST ANGLES",
+             .unit = "\xC2\xB0",
+             .now = now.min_angle.counts,
+             .before = before.min_angle.counts,
+             .low = now.min_angle.low,
+             .high = now.min_angle.high,
+             .ticks = {0, 15, 30, 45, 60}},
             height);
-  draw_bars(ui, {.name = "area-histogram", .title = "AREAS OVER THE MEAN", .unit = "\xC3\x97",
-                 .now = now.relative_area.counts, .before = before.relative_area.counts, .low = now.relative_area.low,
-                 .high = now.relative_area.high, .ticks = {0, 1, 2, 3}, .above_now = now.relative_area.above,
-                 .above_before = before.relative_area.above},
+  draw_bars(ui,
+            {.name = "area-histogram",
+             .title = "AREAS OVER THE MEAN",
+             .unit = "\xC3\x97",
+             .now = now.relative_area.counts,
+             .before = before.relative_area.counts,
+             .low = now.relative_area.low,
+             .high = now.relative_area.high,
+             .ticks = {0, 1, 2, 3},
+             .above_now = now.relative_area.above,
+             .above_before = before.relative_area.above},
             height);
 }
 
-Line make_line(const std::vector<model::IterationRow>& rows, double model::IterationRow::*field, std::string label,
-               ImU32 color) {
+Line make_line(const std::vector<model::IterationRow>& rows, double model::IterationRow::*field,
+               std::string label, ImU32 color) {
   Line line{std::move(label), color, {}, {}};
   for (std::size_t k = 0; k < rows.size(); ++k) {
     line.points.emplace_back(static_cast<float>(rows[k].iteration), static_cast<float>(rows[k].*field));
@@ -127,8 +141,13 @@ void draw_history(const Ui& ui, float height) {
     energy.high = wide ? high.energy * 1.1 : high.energy + pad;
   }
   draw_lines(ui, energy, height);
-  LinePlot angles{.name = "angle-plot", .title = "WORST ANGLES", .format = "%.2f", .unit = "\xC2\xB0", .low = 0,
-                  .high = 180, .ticks = {0, 60, 120, 180}};
+  LinePlot angles{.name = "angle-plot",
+                  .title = "WORST ANGLES",
+                  .format = "%.2f",
+                  .unit = "\xC2\xB0",
+                  .low = 0,
+                  .high = 180,
+                  .ticks = {0, 60, 120, 180}};
   angles.lines.push_back(make_line(rows, &model::IterationRow::min_angle_deg, "smallest", color::kAccent));
   angles.lines.push_back(make_line(rows, &model::IterationRow::max_angle_deg, "largest", color::kSecond));
   draw_lines(ui, angles, height);

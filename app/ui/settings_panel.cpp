@@ -21,7 +21,8 @@ void end_edit_after_item(const Ui& ui) {
 
 void draw_mu(const Ui& ui) {
   constexpr const char* kTip =
-      "Weight of the area term, 0 to 1; the shape term has the rest. 0 makes good angles and lets areas differ, "
+      "Weight of the area term, 0 to 1; the shape term has the rest. 0 makes good angles and lets areas "
+      "differ, "
       "larger values even out the areas.";
   SmoothingSettings settings = ui.session.smoothing;
   auto mu = static_cast<float>(settings.mu_a);
@@ -44,7 +45,8 @@ void draw_reference(const Ui& ui) {
   constexpr std::array<std::string_view, 4> kLabels{"Equilateral, mean area", "Equilateral, edge length",
                                                     "Mesh as opened", "Another file"};
   constexpr const char* kTip =
-      "The triangles that the mesh's ones ought to look like: equilateral ones, those of the opened mesh, or those of "
+      "The triangles that the mesh's ones ought to look like: equilateral ones, those of the opened mesh, or "
+      "those of "
       "a file with the same connectivity.";
   SmoothingSettings settings = ui.session.smoothing;
   row_label(ui, "Reference", kTip);
@@ -59,7 +61,8 @@ void draw_reference(const Ui& ui) {
   if (settings.reference == model::ReferenceKind::edge_length) {
     row_label(ui, "Edge length", "Edge length of the reference triangles, in the units of the file.");
     double length = settings.edge_length;
-    if (ImGui::InputDouble("##edge", &length, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) && length > 0) {
+    if (ImGui::InputDouble("##edge", &length, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) &&
+        length > 0) {
       settings.edge_length = length;
       change(ui, settings, "Edge length");
     }
@@ -76,7 +79,8 @@ void draw_reference(const Ui& ui) {
 void draw_boundary(const Ui& ui) {
   constexpr std::array<std::string_view, 3> kLabels{"Fixed", "Slide", "Free"};
   constexpr const char* kTip =
-      "What vertices on the border of the surface may do: stay, slide along the border, or move like all others.";
+      "What vertices on the border of the surface may do: stay, slide along the border, or move like all "
+      "others.";
   row_label(ui, "Boundary", kTip);
   SmoothingSettings settings = ui.session.smoothing;
   const int choice = segmented(ui, "boundary", kLabels, static_cast<int>(settings.boundary),
@@ -89,7 +93,8 @@ void draw_boundary(const Ui& ui) {
 void draw_features(const Ui& ui) {
   constexpr std::array<std::string_view, 3> kLabels{"Auto", "None", "Angle"};
   constexpr const char* kTip =
-      "Creases that are kept: found with the built-in thresholds, none, or all that turn by more than an angle.";
+      "Creases that are kept: found with the built-in thresholds, none, or all that turn by more than an "
+      "angle.";
   row_label(ui, "Features", kTip);
   SmoothingSettings settings = ui.session.smoothing;
   const int choice = segmented(ui, "features", kLabels, static_cast<int>(settings.features),
@@ -125,7 +130,8 @@ void draw_iterations(const Ui& ui) {
   constexpr std::array<std::string_view, 4> kLabels{"Off", "1e-4", "1e-6", "1e-8"};
   constexpr std::array kTolerances{0.0, 1e-4, 1e-6, 1e-8};
   constexpr const char* kTip =
-      "A run ends when the gradient, the decrease of the energy or the largest move has fallen below this share of its "
+      "A run ends when the gradient, the decrease of the energy or the largest move has fallen below this "
+      "share of its "
       "start, of the energy, or of the mean edge length.";
   row_label(ui, "Tolerance", kTip);
   int chosen = 2;
@@ -145,19 +151,24 @@ void draw_run_buttons(const Ui& ui) {
   const float gap = ui.px(8);
   ImGui::Dummy({0, ui.px(2)});
   const std::string run = running ? "Pause" : s.remaining > 0 ? "Continue" : "Run";
-  if (button(ui, "run", run, {.icon = running ? Icon::pause : Icon::run, .look = ButtonLook::accent, .width = width,
-                              .height = height, .enabled = running || s.can_smooth()}))
+  if (button(ui, "run", run,
+             {.icon = running ? Icon::pause : Icon::run,
+              .look = ButtonLook::accent,
+              .width = width,
+              .height = height,
+              .enabled = running || s.can_smooth()}))
     perform(ui, Action::run_pause);
   tooltip(ui, running ? "Stop after this iteration." : "Smooth up to the number of iterations.",
           keys_of(Action::run_pause));
   const float half = std::floor(0.5F * (width - gap));
-  if (button(ui, "step", "Step", {.icon = Icon::step, .width = half, .height = height, .enabled = s.can_smooth()}))
+  if (button(ui, "step", "Step",
+             {.icon = Icon::step, .width = half, .height = height, .enabled = s.can_smooth()}))
     perform(ui, Action::step);
   tooltip(ui, "One iteration.", keys_of(Action::step));
   ImGui::SameLine(0, gap);
   const bool moved = s.current && s.current->geometry != s.original->geometry;
-  if (button(ui, "reset", "Reset", {.icon = Icon::reset, .width = width - gap - half, .height = height,
-                                    .enabled = moved}))
+  if (button(ui, "reset", "Reset",
+             {.icon = Icon::reset, .width = width - gap - half, .height = height, .enabled = moved}))
     perform(ui, Action::reset);
   tooltip(ui, "Back to the mesh as opened. Can be undone.", keys_of(Action::reset));
   if (button(ui, "copy-command-line", "Copy as command line",
@@ -169,10 +180,12 @@ void draw_run_buttons(const Ui& ui) {
 void draw_range(const Ui& ui, model::ViewSettings& view) {
   constexpr std::array<std::string_view, 3> kLabels{"Run", "Current", "Typed"};
   constexpr const char* kTip =
-      "The ends of the colour scale: fit for all iterations, so that colours can be compared; fit for the present state; "
+      "The ends of the colour scale: fit for all iterations, so that colours can be compared; fit for the "
+      "present state; "
       "or typed. Values outside are grey.";
   row_label(ui, "Range", kTip);
-  const int choice = segmented(ui, "range", kLabels, static_cast<int>(view.range_mode), ImGui::GetContentRegionAvail().x);
+  const int choice =
+      segmented(ui, "range", kLabels, static_cast<int>(view.range_mode), ImGui::GetContentRegionAvail().x);
   if (choice >= 0) view.range_mode = static_cast<model::RangeMode>(choice);
   if (view.range_mode != model::RangeMode::typed) return;
   model::ValueRange& typed = view.typed[static_cast<std::size_t>(view.coloring)];
@@ -183,12 +196,15 @@ void draw_range(const Ui& ui, model::ViewSettings& view) {
 }
 
 void draw_display(const Ui& ui) {
-  constexpr std::array<std::string_view, 6> kMaps{"Automatic", "viridis", "cividis", "inferno", "magma", "blue-orange"};
+  constexpr std::array<std::string_view, 6> kMaps{"Automatic", "viridis", "cividis",
+                                                  "inferno",   "magma",   "blue-orange"};
   model::ViewSettings view = ui.session.view;
   draw_range(ui, view);
-  row_label(ui, "Colours", "A perceptually uniform colour map; Automatic takes the one that suits the quantity.");
+  row_label(ui, "Colours",
+            "A perceptually uniform colour map; Automatic takes the one that suits the quantity.");
   const auto found = std::ranges::find(kMaps, view.color_map);
-  const int map = combo(ui, "color-map", kMaps, found == kMaps.end() ? 0 : static_cast<int>(found - kMaps.begin()));
+  const int map =
+      combo(ui, "color-map", kMaps, found == kMaps.end() ? 0 : static_cast<int>(found - kMaps.begin()));
   if (map >= 0) view.color_map = map == 0 ? "" : std::string(kMaps[static_cast<std::size_t>(map)]);
   ImGui::Dummy({0, 0});
   ImGui::SameLine(ui.px(104));

@@ -20,7 +20,8 @@ constexpr std::array kShortcuts{
     Shortcut{Key::left, kPlain, Action::step_back, "Left", "Back over the last step or run", kSmoothing},
     Shortcut{Key::home, kPlain, Action::reset, "Home", "Reset to the mesh as opened", kSmoothing},
     Shortcut{Key::n, kPlain, Action::next_worst, "N", "Fly to the next worst triangle", kSmoothing},
-    Shortcut{Key::c, kControlShift, Action::copy_command_line, "Ctrl+Shift+C", "Copy as command line", kSmoothing},
+    Shortcut{Key::c, kControlShift, Action::copy_command_line, "Ctrl+Shift+C", "Copy as command line",
+             kSmoothing},
     Shortcut{Key::digit1, kPlain, Action::color_min_angle, "1", "Colour by smallest angle", kView},
     Shortcut{Key::digit2, kPlain, Action::color_max_angle, "2", "Colour by largest angle", kView},
     Shortcut{Key::digit3, kPlain, Action::color_area, "3", "Colour by area", kView},
@@ -44,7 +45,9 @@ constexpr std::array kShortcuts{
 
 }  // namespace
 
-std::span<const Shortcut> shortcuts() { return kShortcuts; }
+std::span<const Shortcut> shortcuts() {
+  return kShortcuts;
+}
 
 const Shortcut* find_shortcut(const KeyChanged& press) {
   Modifiers modifiers = press.modifiers;

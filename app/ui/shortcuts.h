@@ -9,11 +9,29 @@ namespace isorelax::ui {
 
 /// What a key, a button or a menu entry asks for.
 enum class Action : std::uint8_t {
-  run_pause, step, step_back, reset,
-  open, save, save_as, save_picture, undo, redo, quit,
-  frame, wire, shading, next_worst,
-  color_none, color_min_angle, color_max_angle, color_area, color_energy,
-  hide_panels, help, copy_command_line,
+  run_pause,
+  step,
+  step_back,
+  reset,
+  open,
+  save,
+  save_as,
+  save_picture,
+  undo,
+  redo,
+  quit,
+  frame,
+  wire,
+  shading,
+  next_worst,
+  color_none,
+  color_min_angle,
+  color_max_angle,
+  color_area,
+  color_energy,
+  hide_panels,
+  help,
+  copy_command_line,
 };
 
 struct Shortcut {

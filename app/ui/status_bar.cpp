@@ -11,8 +11,8 @@ std::string describe_document(const model::Session& s) {
   if (!s.document) return "No mesh";
   const TriangleMesh& mesh = s.document->mesh();
   return s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") + "   " +
-         count_text(mesh.vertex_count()) + " vertices   " + count_text(mesh.triangle_count()) + " triangles   iteration " +
-         count_text(s.current->iteration);
+         count_text(mesh.vertex_count()) + " vertices   " + count_text(mesh.triangle_count()) +
+         " triangles   iteration " + count_text(s.current->iteration);
 }
 
 void draw_progress(const Ui& ui, const model::Progress& progress, float x) {
@@ -23,12 +23,15 @@ void draw_progress(const Ui& ui, const model::Progress& progress, float x) {
   const float y = std::floor(origin.y + 0.5F * height - ui.px(2));
   draw.AddRectFilled({origin.x + x, y}, {origin.x + x + width, y + ui.px(4)}, color::kControl, ui.px(2));
   if (progress.share >= 0) {
-    draw.AddRectFilled({origin.x + x, y}, {origin.x + x + width * static_cast<float>(std::clamp(progress.share, 0.0, 1.0)), y + ui.px(4)},
-                       color::kAccent, ui.px(2));
+    draw.AddRectFilled(
+        {origin.x + x, y},
+        {origin.x + x + width * static_cast<float>(std::clamp(progress.share, 0.0, 1.0)), y + ui.px(4)},
+        color::kAccent, ui.px(2));
   } else {
     // How long it takes is not known: a piece that wanders.
     const float at = static_cast<float>(std::fmod(ImGui::GetTime() * 0.7, 1.0)) * 0.7F * width;
-    draw.AddRectFilled({origin.x + x + at, y}, {origin.x + x + at + 0.3F * width, y + ui.px(4)}, color::kAccent, ui.px(2));
+    draw.AddRectFilled({origin.x + x + at, y}, {origin.x + x + at + 0.3F * width, y + ui.px(4)},
+                       color::kAccent, ui.px(2));
   }
   mark_area(ui, "progress", {{origin.x + x, y}, {origin.x + x + width, y + ui.px(4)}});
 }
@@ -64,7 +67,8 @@ void draw_status_bar(const Ui& ui, const Rect& rect) {
     text_in(ui.fonts.small, color::kText, progress.label);
     ImGui::SameLine(rect.width() - ui.px(34));
     ImGui::SetCursorPosY(ui.px(5));
-    if (button(ui, "cancel", "", {.icon = Icon::close, .look = ButtonLook::quiet, .width = ui.px(22), .height = ui.px(20)}))
+    if (button(ui, "cancel", "",
+               {.icon = Icon::close, .look = ButtonLook::quiet, .width = ui.px(22), .height = ui.px(20)}))
       ui.command(model::Cancel{});
     tooltip(ui, "Stop this.");
     right -= ui.px(20);

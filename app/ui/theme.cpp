@@ -7,10 +7,11 @@
 namespace isorelax::ui {
 namespace {
 
-// Latin, Latin-1, Greek, general punctuation (dashes, ellipsis), superscripts, arrows, minus, approximately, less-equal.
-constexpr std::array<ImWchar, 19> kGlyphs{0x0020, 0x017F, 0x0391, 0x03C9, 0x2002, 0x2027, 0x2032, 0x2033,
-                                          0x2070, 0x209C, 0x2190, 0x2199, 0x2212, 0x2212, 0x2248, 0x2248,
-                                          0x2264, 0x2265, 0};
+// Latin, Latin-1, Greek, general punctuation (dashes, ellipsis), superscripts, arrows, minus, approximately,
+// less-equal.
+constexpr std::array<ImWchar, 19> kGlyphs{0x0020, 0x017F, 0x0391, 0x03C9, 0x2002, 0x2027, 0x2032,
+                                          0x2033, 0x2070, 0x209C, 0x2190, 0x2199, 0x2212, 0x2212,
+                                          0x2248, 0x2248, 0x2264, 0x2265, 0};
 
 void make_digits_equally_wide(ImFont& font) {
   float widest = 0;

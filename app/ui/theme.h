@@ -52,14 +52,16 @@ struct Fonts {
   ImFont* title = nullptr;
 };
 
-/// Fills the atlas for a scale (pixels per point) and makes all digits equally wide, so that columns of numbers
-/// line up. The caller uploads the atlas again.
+/// Fills the atlas for a scale (pixels per point) and makes all digits equally wide, so that columns of
+/// numbers line up. The caller uploads the atlas again.
 Fonts load_fonts(ImFontAtlas& atlas, const FontFiles& files, float scale);
 
 /// Sets the whole style of the current context for a scale.
 void apply_theme(float scale);
 
 /// A theme colour for functions that want floats.
-inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
+inline ImVec4 to_vec4(ImU32 color) {
+  return ImGui::ColorConvertU32ToFloat4(color);
+}
 
 }  // namespace isorelax::ui

@@ -15,7 +15,8 @@ struct Tool {
 };
 
 void tool(const Ui& ui, const Tool& t) {
-  const ButtonStyle style{.icon = t.icon, .look = t.on ? ButtonLook::pressed : ButtonLook::quiet, .enabled = t.enabled};
+  const ButtonStyle style{
+      .icon = t.icon, .look = t.on ? ButtonLook::pressed : ButtonLook::quiet, .enabled = t.enabled};
   if (button(ui, t.name, t.label, style)) perform(ui, t.action);
   tooltip(ui, t.tip, keys_of(t.action));
   ImGui::SameLine(0, ui.px(2));
@@ -24,7 +25,8 @@ void tool(const Ui& ui, const Tool& t) {
 void draw_colorings(const Ui& ui) {
   constexpr std::array<std::string_view, 5> kLabels{"Min angle", "Max angle", "Area", "Energy", "Plain"};
   constexpr std::array kColorings{model::Coloring::min_angle, model::Coloring::max_angle,
-                                  model::Coloring::relative_area, model::Coloring::energy, model::Coloring::none};
+                                  model::Coloring::relative_area, model::Coloring::energy,
+                                  model::Coloring::none};
   int chosen = 0;
   for (int k = 0; k < 5; ++k)
     if (kColorings[static_cast<std::size_t>(k)] == ui.session.view.coloring) chosen = k;
@@ -44,19 +46,38 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
   begin_panel("top-bar", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   const model::Session& s = ui.session;
   const bool open = s.current != nullptr;
-  tool(ui, {.name = "open", .label = "Open", .tip = "Open a mesh: OFF, OBJ, PLY or STL.", .icon = Icon::open,
+  tool(ui, {.name = "open",
+            .label = "Open",
+            .tip = "Open a mesh: OFF, OBJ, PLY or STL.",
+            .icon = Icon::open,
             .action = Action::open});
-  tool(ui, {.name = "save", .label = "Save", .tip = "Save the mesh with its current positions.", .icon = Icon::save,
-            .action = Action::save, .enabled = open});
-  tool(ui, {.name = "picture", .label = "Picture", .tip = "Save what the viewport shows as a PNG file.",
-            .icon = Icon::picture, .action = Action::save_picture, .enabled = open});
+  tool(ui, {.name = "save",
+            .label = "Save",
+            .tip = "Save the mesh with its current positions.",
+            .icon = Icon::save,
+            .action = Action::save,
+            .enabled = open});
+  tool(ui, {.name = "picture",
+            .label = "Picture",
+            .tip = "Save what the viewport shows as a PNG file.",
+            .icon = Icon::picture,
+            .action = Action::save_picture,
+            .enabled = open});
   ImGui::SameLine(0, ui.px(10));
   const auto* undo = s.undo.next_undo();
   const auto* redo = s.undo.next_redo();
   const std::string undo_tip = undo != nullptr ? "Undo: " + undo->label : "Nothing to undo";
   const std::string redo_tip = redo != nullptr ? "Redo: " + redo->label : "Nothing to redo";
-  tool(ui, {.name = "undo", .tip = undo_tip, .icon = Icon::undo, .action = Action::undo, .enabled = undo != nullptr});
-  tool(ui, {.name = "redo", .tip = redo_tip, .icon = Icon::redo, .action = Action::redo, .enabled = redo != nullptr});
+  tool(ui, {.name = "undo",
+            .tip = undo_tip,
+            .icon = Icon::undo,
+            .action = Action::undo,
+            .enabled = undo != nullptr});
+  tool(ui, {.name = "redo",
+            .tip = redo_tip,
+            .icon = Icon::redo,
+            .action = Action::redo,
+            .enabled = redo != nullptr});
 
   const float center = 0.5F * (rect.width() - ui.px(390));
   ImGui::SameLine(std::max(center, ImGui::GetCursorPosX() + ui.px(10)), 0);
@@ -65,12 +86,23 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
   const float tools = button_width(ui, "Edges", Icon::wire) + button_width(ui, "Smooth", Icon::none) +
                       button_width(ui, "Frame", Icon::frame) + button_width(ui, "", Icon::help) + ui.px(20);
   ImGui::SameLine(std::max(rect.width() - tools, ImGui::GetCursorPosX() + ui.px(10)), 0);
-  tool(ui, {.name = "wire", .label = "Edges", .tip = "Show the edges of the triangles.", .icon = Icon::wire,
-            .action = Action::wire, .on = s.view.wire});
-  tool(ui, {.name = "shading", .label = "Smooth", .tip = "Shade the surface smoothly instead of each triangle flat.",
-            .action = Action::shading, .on = s.view.shading == model::Shading::smooth});
-  tool(ui, {.name = "frame", .label = "Frame", .tip = "Show the whole mesh.", .icon = Icon::frame,
-            .action = Action::frame, .enabled = open});
+  tool(ui, {.name = "wire",
+            .label = "Edges",
+            .tip = "Show the edges of the triangles.",
+            .icon = Icon::wire,
+            .action = Action::wire,
+            .on = s.view.wire});
+  tool(ui, {.name = "shading",
+            .label = "Smooth",
+            .tip = "Shade the surface smoothly instead of each triangle flat.",
+            .action = Action::shading,
+            .on = s.view.shading == model::Shading::smooth});
+  tool(ui, {.name = "frame",
+            .label = "Frame",
+            .tip = "Show the whole mesh.",
+            .icon = Icon::frame,
+            .action = Action::frame,
+            .enabled = open});
   tool(ui, {.name = "help", .tip = "All keys.", .icon = Icon::help, .action = Action::help});
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -27,7 +27,8 @@ struct Rect {
   [[nodiscard]] ImVec2 center() const { return {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}; }
 };
 
-// What the interface asks of the program around it: the camera, the renderer and the window are not in the session.
+// What the interface asks of the program around it: the camera, the renderer and the window are not in the
+// session.
 struct OrbitView {
   float dx = 0, dy = 0;  ///< pixels
 };
@@ -72,8 +73,8 @@ struct FileBrowser {
   int selected = -1;
   bool all_files = false;
   bool scroll_to_selected = false;
-  std::string error;                    ///< shown in the dialog until something else is done
-  std::filesystem::path overwrite;      ///< waits for "Replace?"; empty: no question
+  std::string error;                ///< shown in the dialog until something else is done
+  std::filesystem::path overwrite;  ///< waits for "Replace?"; empty: no question
 };
 
 /// What waits for the answer to "Save changes?".

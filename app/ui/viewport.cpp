@@ -20,7 +20,8 @@ void navigate(const Ui& ui, const Rect& rect) {
       ui.request(OrbitView{io.MouseDelta.x, io.MouseDelta.y});
   }
   if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-    ui.request(ZoomView{std::pow(1.15F, io.MouseWheel), io.MousePos.x - rect.low.x, io.MousePos.y - rect.low.y});
+    ui.request(
+        ZoomView{std::pow(1.15F, io.MouseWheel), io.MousePos.x - rect.low.x, io.MousePos.y - rect.low.y});
 }
 
 void centered(ImFont* font, float middle, ImU32 color, const std::string& text) {
@@ -38,8 +39,8 @@ void draw_welcome(const Ui& ui, const Rect& rect) {
   ImGui::Dummy({0, ui.px(8)});
   const float width = ui.px(180);
   ImGui::SetCursorPosX(middle - 0.5F * width);
-  if (button(ui, "welcome-open", "Open a mesh", {.icon = Icon::open, .look = ButtonLook::accent, .width = width,
-                                                 .height = ui.px(38)}))
+  if (button(ui, "welcome-open", "Open a mesh",
+             {.icon = Icon::open, .look = ButtonLook::accent, .width = width, .height = ui.px(38)}))
     perform(ui, Action::open);
   if (ui.session.recent.empty()) return;
   ImGui::Dummy({0, ui.px(12)});
@@ -56,9 +57,8 @@ void draw_welcome(const Ui& ui, const Rect& rect) {
 // The newest error or warning stays over the viewport until it is dismissed.
 void draw_notice(const Ui& ui, const Rect& rect) {
   const auto& messages = ui.session.messages;
-  const auto found = std::find_if(messages.rbegin(), messages.rend(), [](const model::Message& m) {
-    return m.kind != model::MessageKind::info;
-  });
+  const auto found = std::find_if(messages.rbegin(), messages.rend(),
+                                  [](const model::Message& m) { return m.kind != model::MessageKind::info; });
   if (found == messages.rend() || found->number <= ui.state.dismissed_message) return;
   const bool error = found->kind == model::MessageKind::error;
   const float margin = ui.px(14);

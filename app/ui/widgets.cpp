@@ -74,7 +74,8 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
   ImGui::PopStyleColor(3);
   mark(ui, name);
   const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 text = label.empty() ? ImVec2(0, 0) : ImGui::CalcTextSize(label.data(), label.data() + label.size());
+  const ImVec2 text =
+      label.empty() ? ImVec2(0, 0) : ImGui::CalcTextSize(label.data(), label.data() + label.size());
   const float icon = style.icon != Icon::none ? ui.px(14) : 0;
   const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
   float x = low.x + 0.5F * (width - icon - gap - text.x);
@@ -94,14 +95,15 @@ int segmented(const Ui& ui, std::string_view name, std::span<const std::string_v
   int result = -1;
   const float each = std::floor(width / static_cast<float>(labels.size()));
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + each * static_cast<float>(labels.size()),
-                                                  low.y + ui.px(size::kControl)},
-                                            ImGui::GetColorU32(color::kControl), ImGui::GetStyle().FrameRounding);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      low, {low.x + each * static_cast<float>(labels.size()), low.y + ui.px(size::kControl)},
+      ImGui::GetColorU32(color::kControl), ImGui::GetStyle().FrameRounding);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     if (k > 0) ImGui::SameLine(0, 0);
     const bool on = chosen == static_cast<int>(k);
     const std::string id = std::string(name) + "/" + std::string(labels[k]);
-    if (button(ui, id, labels[k], {.look = on ? ButtonLook::pressed : ButtonLook::quiet, .width = each}) && !on)
+    if (button(ui, id, labels[k], {.look = on ? ButtonLook::pressed : ButtonLook::quiet, .width = each}) &&
+        !on)
       result = static_cast<int>(k);
   }
   return result;

@@ -9,14 +9,29 @@
 namespace isorelax::ui {
 
 /// Small pictures drawn with lines, so that they are sharp at any scale.
-enum class Icon : std::uint8_t { none, run, pause, step, reset, open, save, picture, undo, redo, frame, wire, help, close };
+enum class Icon : std::uint8_t {
+  none,
+  run,
+  pause,
+  step,
+  reset,
+  open,
+  save,
+  picture,
+  undo,
+  redo,
+  frame,
+  wire,
+  help,
+  close
+};
 
 enum class ButtonLook : std::uint8_t { plain, accent, quiet, pressed };
 
 struct ButtonStyle {
   Icon icon = Icon::none;
   ButtonLook look = ButtonLook::plain;
-  float width = 0;  ///< pixels; 0: as wide as its content
+  float width = 0;   ///< pixels; 0: as wide as its content
   float height = 0;  ///< pixels; 0: a control's height
   bool enabled = true;
 };
@@ -32,7 +47,8 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
 float button_width(const Ui& ui, std::string_view label, Icon icon);
 
 /// Choices side by side, one of them pressed. The new choice, or -1.
-int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen, float width);
+int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen,
+              float width);
 
 /// Draws an icon of side `size` pixels around a centre.
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 center, float size, ImU32 color);

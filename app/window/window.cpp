@@ -18,9 +18,9 @@
 namespace isorelax::window {
 namespace {
 
-constexpr double kBusyRedraw = 0.1;    // seconds: the progress bar moves
-constexpr double kSettleTime = 0.8;    // seconds after an input in which tooltips may still appear
-constexpr double kCursorBlink = 0.4;   // seconds
+constexpr double kBusyRedraw = 0.1;   // seconds: the progress bar moves
+constexpr double kSettleTime = 0.8;   // seconds after an input in which tooltips may still appear
+constexpr double kCursorBlink = 0.4;  // seconds
 
 // Initialises GLFW for as long as it lives.
 class Glfw {
@@ -31,8 +31,9 @@ class Glfw {
     glfwGetError(&reason);
     std::string text = "no window can be opened here";
     if (reason != nullptr) text += " (" + std::string(reason) + ")";
-    throw UsageError(text + "; without a display use: isorelax smooth, isorelax render, isorelax quality, or "
-                            "isorelax view --screenshot PICTURE.png");
+    throw UsageError(text +
+                     "; without a display use: isorelax smooth, isorelax render, isorelax quality, or "
+                     "isorelax view --screenshot PICTURE.png");
   }
   ~Glfw() { glfwTerminate(); }
   Glfw(const Glfw&) = delete;
@@ -71,7 +72,9 @@ class Host {
     ImGuiIO& io = ImGui::GetIO();
     io.ClipboardUserData = window;
     io.GetClipboardTextFn = [](void* w) { return glfwGetClipboardString(static_cast<GLFWwindow*>(w)); };
-    io.SetClipboardTextFn = [](void* w, const char* text) { glfwSetClipboardString(static_cast<GLFWwindow*>(w), text); };
+    io.SetClipboardTextFn = [](void* w, const char* text) {
+      glfwSetClipboardString(static_cast<GLFWwindow*>(w), text);
+    };
     cursors_ = {glfwCreateStandardCursor(GLFW_ARROW_CURSOR), glfwCreateStandardCursor(GLFW_IBEAM_CURSOR),
                 glfwCreateStandardCursor(GLFW_HRESIZE_CURSOR)};
   }
@@ -82,13 +85,16 @@ class Host {
     glfwGetFramebufferSize(window_, &width, &height);
     float scale = 1;
     glfwGetWindowContentScale(window_, &scale, nullptr);
-    return {.size = {std::max(1, width), std::max(1, height)}, .scale = std::clamp(scale, 0.75F, 4.0F),
+    return {.size = {std::max(1, width), std::max(1, height)},
+            .scale = std::clamp(scale, 0.75F, 4.0F),
             .time = glfwGetTime()};
   }
 
   void update_cursor() {
     const ImGuiMouseCursor cursor = editor_.interface().cursor();
-    const std::size_t index = cursor == ImGuiMouseCursor_TextInput ? 1 : cursor == ImGuiMouseCursor_ResizeEW ? 2 : 0;
+    const std::size_t index = cursor == ImGuiMouseCursor_TextInput  ? 1
+                              : cursor == ImGuiMouseCursor_ResizeEW ? 2
+                                                                    : 0;
     glfwSetCursor(window_, cursors_[index]);
   }
 
@@ -96,7 +102,8 @@ class Host {
     const model::Session& s = editor_.session();
     std::string title = "Isorelax";
     if (s.document)
-      title = s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") + " \xE2\x80\x93 " + title;
+      title = s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") +
+              " \xE2\x80\x93 " + title;
     if (title == title_) return;
     title_ = std::move(title);
     glfwSetWindowTitle(window_, title_.c_str());
@@ -205,7 +212,9 @@ void run_frames(GLFWwindow* window, editor::Editor& editor, Host& host, const Wi
     host.update_title();
     ++drawn;
     // A test counts frames only once the worker has done what it was asked.
-    if (options.frames && drawn >= *options.frames && !editor.session().engine.busy() && !editor.is_restless()) break;
+    if (options.frames && drawn >= *options.frames && !editor.session().engine.busy() &&
+        !editor.is_restless())
+      break;
     host.wait();
   }
 }

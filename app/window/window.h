@@ -16,8 +16,8 @@ struct WindowOptions {
   std::optional<std::filesystem::path> screenshot;
 };
 
-/// Opens the editor's window and returns when it is closed. Throws UsageError when there is no display (the text names
-/// the commands that need none), OutputError when the screenshot cannot be written.
+/// Opens the editor's window and returns when it is closed. Throws UsageError when there is no display (the
+/// text names the commands that need none), OutputError when the screenshot cannot be written.
 void run_window(const WindowOptions& options);
 
 }  // namespace isorelax::window

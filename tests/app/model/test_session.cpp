@@ -159,7 +159,8 @@ TEST_F(SessionTest, ResetGoesBackToTheFileAndCanBeUndone) {
   EXPECT_EQ(session.current->geometry, session.original->geometry);
   EXPECT_EQ(session.history.size(), 1U);
   do_and_wait(StepBack{});
-  EXPECT_EQ(session.current->geometry, session.original->geometry) << "a reset is no iteration to go back over";
+  EXPECT_EQ(session.current->geometry, session.original->geometry)
+      << "a reset is no iteration to go back over";
   do_and_wait(Undo{});
   EXPECT_EQ(session.current->geometry, smoothed->geometry);
 }
@@ -286,9 +287,9 @@ TEST_F(SessionTest, TheCommandLineNamesEverySettingAndQuotesTheFile) {
 
 TEST_F(SessionTest, CommandsBeforeAMeshIsOpenDoNoHarm) {
   for (const Command& command :
-       {Command(model::Run{}), Command(Step{}), Command(Pause{}), Command(Reset{}), Command(StepBack{}), Command(Undo{}),
-        Command(Redo{}), Command(Cancel{}), Command(SelectNextWorst{}), Command(CopyCommandLine{}),
-        Command(SaveFile{folder / "x.off"})})
+       {Command(model::Run{}), Command(Step{}), Command(Pause{}), Command(Reset{}), Command(StepBack{}),
+        Command(Undo{}), Command(Redo{}), Command(Cancel{}), Command(SelectNextWorst{}),
+        Command(CopyCommandLine{}), Command(SaveFile{folder / "x.off"})})
     do_and_wait(command);
   EXPECT_FALSE(session.current);
   EXPECT_FALSE(std::filesystem::exists(folder / "x.off"));

@@ -69,7 +69,7 @@ class InterfaceTest : public ::testing::Test {
 
   test::TemporaryFolder folder;
   model::Session session;
-  Interface interface{test_fonts()};
+  Interface interface { test_fonts() };
   std::vector<Request> requests;
 };
 
@@ -268,7 +268,8 @@ TEST_F(InterfaceTest, DraggingInTheViewportPansAPlanarMeshAndTheWheelZoomsToTheP
   settle();
   EXPECT_TRUE(requested<PanView>());
   EXPECT_FALSE(requested<OrbitView>());
-  const auto zoom = std::ranges::find_if(requests, [](const Request& r) { return std::holds_alternative<ZoomView>(r); });
+  const auto zoom =
+      std::ranges::find_if(requests, [](const Request& r) { return std::holds_alternative<ZoomView>(r); });
   ASSERT_NE(zoom, requests.end());
   EXPECT_GT(std::get<ZoomView>(*zoom).factor, 1);
   EXPECT_NEAR(std::get<ZoomView>(*zoom).x, at.x + 30 - interface.state().rects.at("viewport").low.x, 1);

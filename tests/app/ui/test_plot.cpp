@@ -19,7 +19,10 @@ TEST(RoundTicks, AreOneTwoOrFiveTimesAPowerOfTenInsideTheRange) {
 
 TEST(CountText, GroupsDigitsByThree) {
   EXPECT_EQ(count_text(7), "7");
-  EXPECT_EQ(count_text(1234567), "1\xE2\x80\x89" "234\xE2\x80\x89" "567");
+  EXPECT_EQ(count_text(1234567),
+            "1\xE2\x80\x89"
+            "234\xE2\x80\x89"
+            "567");
 }
 
 TEST(Shortcuts, NoTwoShareAKey) {
