@@ -70,11 +70,13 @@ class RenderCommand : public Command {
         ->type_name("C");
     app.add_option("--range", range_, "Values at the ends of the colour map")->type_name("LO:HI");
     app.add_option("--colormap", map_, "viridis, cividis, inferno, magma or blue-orange")->type_name("MAP");
+    app.add_flag("--reverse", options_.reversed, "Turn the colour map round");
     app.add_option("--camera", options_.camera, "Where from (default fit)")->type_name("SPEC");
     app.add_option("--shading", shading_, "flat (default) or smooth")->type_name("S");
     app.add_flag("--wire", options_.wire, "Draw the edges");
     app.add_option("--legend", legend_, "on (default) or off")->type_name("on|off");
-    app.add_option("--background", background_, "dark (default), light, white, black, #rrggbb or r,g,b")->type_name("B");
+    app.add_option("--background", background_, "dark (default), light, white, black, #rrggbb or r,g,b")
+        ->type_name("B");
     app.add_option("--context", context_, "osmesa (default) or egl")->type_name("C");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }

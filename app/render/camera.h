@@ -106,9 +106,9 @@ Camera look_from(const Camera& camera, NamedView view);
 Camera default_camera(std::span<const Vec3> positions, PictureSize size, const FitOptions& options = {});
 
 /// A camera from text, for the mesh given by its points: VIEW[:OPTION...].
-/// VIEW: fit (the default camera), front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION in
-/// degrees. OPTION: perspective, orthographic, y-up, z-up, zoom=FACTOR. Example: "30,20:z-up:zoom=2".
-/// Throws UsageError naming the part that is wrong.
+/// VIEW: fit (the default camera), front, back, left, right, top, bottom, iso, or
+/// AZIMUTH,ELEVATION[,ZOOM] in degrees. OPTION: perspective, orthographic, y-up, z-up, zoom=FACTOR. Example:
+/// "30,20:z-up:zoom=2". Throws UsageError naming the part that is wrong.
 Camera parse_camera(std::string_view text, std::span<const Vec3> positions, PictureSize size,
                     const FitOptions& options = {});
 

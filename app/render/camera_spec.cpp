@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -28,23 +29,35 @@ std::string quoted(std::string_view text) {
   return result;
 }
 
-/// Turns `camera` as the part before the first colon says.
-Camera parse_view(const Camera& camera, std::string_view view, std::string_view whole) {
-  if (view == "fit") return camera;
+double parse_zoom(std::string_view text, std::string_view whole) {
+  const auto factor = parse_number(text);
+  if (!factor || *factor < 1e-6 || *factor > 1e6) fail(whole, "the zoom must be a number from 1e-6 to 1e6");
+  return *factor;
+}
+
+/// Turns the camera as the part before the first colon says; a third number goes into `zoom`.
+void parse_view(std::string_view view, std::string_view whole, Camera& camera, double& zoom) {
+  if (view == "fit") return;
   for (std::size_t i = 0; i < std::size(kViews); ++i)
-    if (view == kViews[i]) return look_from(camera, static_cast<NamedView>(i));
-  const std::size_t comma = view.find(',');
-  const auto azimuth = parse_number(view.substr(0, comma));
-  const auto elevation =
-      comma == std::string_view::npos ? std::optional<double>() : parse_number(view.substr(comma + 1));
-  if (!azimuth || !elevation)
-    fail(whole, quoted(view) +
-                    " is no view: give fit, front, back, left, right, top, bottom, iso or AZIMUTH,ELEVATION");
-  if (std::abs(*elevation) > 90) fail(whole, "the elevation must lie between -90 and 90");
-  Camera turned = camera;
-  turned.azimuth_deg = *azimuth;
-  turned.elevation_deg = *elevation;
-  return turned;
+    if (view == kViews[i]) {
+      camera = look_from(camera, static_cast<NamedView>(i));
+      return;
+    }
+  std::optional<double> angles[2];
+  std::string_view rest = view;
+  for (auto& angle : angles) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    angle = parse_number(rest.substr(0, comma));
+    rest.remove_prefix(comma == rest.size() || &angle == &angles[1] ? comma : comma + 1);
+  }
+  if (!angles[0] || !angles[1])
+    fail(whole,
+         quoted(view) +
+             " is no view: give fit, front, back, left, right, top, bottom, iso or AZIMUTH,ELEVATION[,ZOOM]");
+  if (std::abs(*angles[1]) > 90) fail(whole, "the elevation must lie between -90 and 90");
+  if (!rest.empty()) zoom = parse_zoom(rest.substr(1), whole);
+  camera.azimuth_deg = *angles[0];
+  camera.elevation_deg = *angles[1];
 }
 
 /// Reads one option into the camera; a zoom into `zoom`.
@@ -58,9 +71,7 @@ void parse_option(std::string_view option, std::string_view whole, Camera& camer
   } else if (option == "z-up") {
     camera.up = UpAxis::z;
   } else if (option.starts_with("zoom=")) {
-    const auto factor = parse_number(option.substr(5));
-    if (!factor || *factor < 1e-6 || *factor > 1e6) fail(whole, "the zoom must be a number from 1e-6 to 1e6");
-    zoom = *factor;
+    zoom = parse_zoom(option.substr(5), whole);
   } else {
     fail(whole, quoted(option) + " is no option: give perspective, orthographic, y-up, z-up or zoom=FACTOR");
   }
@@ -71,8 +82,9 @@ void parse_option(std::string_view option, std::string_view whole, Camera& camer
 Camera parse_camera(std::string_view text, std::span<const Vec3> positions, PictureSize size,
                     const FitOptions& options) {
   const std::size_t colon = text.find(':');
-  Camera camera = parse_view(default_camera(positions, size, options), text.substr(0, colon), text);
+  Camera camera = default_camera(positions, size, options);
   double zoom = 1;
+  parse_view(text.substr(0, colon), text, camera, zoom);
   std::string_view rest = colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
   while (colon != std::string_view::npos) {
     const std::size_t end = rest.find(':');

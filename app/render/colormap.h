@@ -24,6 +24,9 @@ ColorMap parse_color_map(std::string_view text);
 std::span<const Color, 256> colors_of(ColorMap map);
 
 enum class MapDirection { forward, reversed };
+constexpr MapDirection opposite(MapDirection direction) {
+  return direction == MapDirection::forward ? MapDirection::reversed : MapDirection::forward;
+}
 enum class ValueScale { linear, logarithmic };
 
 struct Range {

@@ -24,7 +24,7 @@ Scene make_scene(const TriangleMesh& mesh, const std::optional<FaceColors>& colo
   shown.face_values = colors->values;
   shown.coloring = default_coloring(colors->quantity, colors->values);
   if (options.color_map) shown.coloring.map = *options.color_map;
-  if (options.direction) shown.coloring.direction = *options.direction;
+  if (options.reversed) shown.coloring.direction = opposite(shown.coloring.direction);
   if (options.range) {
     shown.coloring.range = *options.range;
     if (options.range->low <= 0) shown.coloring.scale = ValueScale::linear;

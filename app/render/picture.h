@@ -21,10 +21,10 @@ struct FaceColors {
 
 struct PictureOptions {
   PictureSize size;
-  std::optional<ColorMap> color_map;      ///< empty: the quantity's own
-  std::optional<MapDirection> direction;  ///< empty: the quantity's own
-  std::optional<Range> range;             ///< empty: the quantity's own
-  std::string camera = "fit";             ///< see parse_camera
+  std::optional<ColorMap> color_map;  ///< empty: the quantity's own
+  bool reversed = false;              ///< the map runs the other way than the quantity's own
+  std::optional<Range> range;         ///< empty: the quantity's own
+  std::string camera = "fit";         ///< see parse_camera
   Shading shading = Shading::flat;
   bool wire = false;
   bool legend = true;

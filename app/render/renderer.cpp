@@ -27,6 +27,9 @@ struct OverlayKey {
   friend bool operator==(const OverlayKey&, const OverlayKey&) = default;
 };
 
+/// With four samples of colour and depth this takes two gigabytes.
+constexpr std::int64_t kMostPixels = std::int64_t{8192} * 8192;
+
 /// How strongly shading darkens: less where colours are to be read.
 constexpr float kPlainRelief = 1;
 constexpr float kColoredRelief = 0.6F;
@@ -130,9 +133,12 @@ struct Renderer::Impl {
 void Renderer::Impl::require_size(PictureSize size) const {
   GLint most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
-  if (size.width < 1 || size.height < 1 || size.width > most || size.height > most)
+  const bool fits = size.width >= 1 && size.height >= 1 && size.width <= most && size.height <= most &&
+                    std::int64_t{size.width} * size.height <= kMostPixels;
+  if (!fits)
     throw UsageError("a picture of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                     " pixels cannot be drawn: sides must be 1 to " + std::to_string(most));
+                     " pixels cannot be drawn: sides must be 1 to " + std::to_string(most) +
+                     ", with no more pixels than 8192x8192");
 }
 
 Bounds Renderer::Impl::scene_bounds() const {

@@ -33,7 +33,7 @@ class Renderer {
   ~Renderer();
 
   /// Draws. Throws MeshError when a mesh is larger than the context's texture buffers, UsageError when the
-  /// size is not 1..max_size().
+  /// sides are not 1..max_size() or there are more pixels than in 8192 x 8192.
   void draw(const Scene& scene, const Camera& camera, PictureSize size);
 
   /// The texture that holds the last picture (GL_TEXTURE_2D, RGBA8, first row at the bottom as OpenGL has

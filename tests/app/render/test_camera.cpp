@@ -183,12 +183,15 @@ TEST(ParseCamera, reads_views_angles_and_options) {
   EXPECT_EQ(camera.up, UpAxis::y);
   EXPECT_EQ(camera.projection, Projection::orthographic);
   EXPECT_DOUBLE_EQ(2 * camera.extent, parse_camera("30,-15:y-up:orthographic", mesh.positions, kSize).extent);
+  EXPECT_EQ(parse_camera("30,20,4", mesh.positions, kSize),
+            parse_camera("30,20:zoom=4", mesh.positions, kSize));
   EXPECT_EQ(parse_camera("fit", mesh.positions, kSize), default_camera(mesh.positions, kSize));
 }
 
 TEST(ParseCamera, names_what_is_wrong) {
-  for (const char* text : {"", "frnt", "30", "30,", "30,91", "nan,0", "30,20,10", "front:", "front:upside",
-                           "front:zoom=", "front:zoom=0", "front:zoom=-1", ":front"}) {
+  for (const char* text :
+       {"", "frnt", "30", "30,", "30,91", "nan,0", "30,20,", "30,20,0", "30,20,1,1", ",",
+        "front:", "front:upside", "front:zoom=", "front:zoom=0", "front:zoom=-1", ":front"}) {
     try {
       parse_camera(text, {}, kSize);
       ADD_FAILURE() << "'" << text << "' was taken";

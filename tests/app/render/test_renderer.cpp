@@ -133,6 +133,7 @@ TEST_F(RendererTest, tiny_and_huge_meshes_fill_the_picture_alike) {
 TEST_F(RendererTest, sizes_that_cannot_be_drawn_are_refused) {
   EXPECT_THROW(draw(Scene(), Camera(), {0, 10}), UsageError);
   EXPECT_THROW(draw(Scene(), Camera(), {renderer_.max_size() + 1, 10}), UsageError);
+  EXPECT_THROW(draw(Scene(), Camera(), {8193, 8192}), UsageError);
 }
 
 TEST_F(RendererTest, values_must_fit_the_triangles) {
