@@ -93,6 +93,25 @@ TEST(Inverted, LensWithASharpRimHasNone) {
   EXPECT_TRUE(inverted(lens).empty());
 }
 
+TEST(Inverted, NarrowTrianglesAlongASharpRimAreNotOutvotedByTheOtherSide) {
+  TriangleMesh lens = hexagon(-0.02);
+  for (Triangle& t : lens.triangles) std::swap(t[1], t[2]);  // the lower side
+  for (Index k = 1; k <= 6; ++k) {
+    Vec3 inner = 0.9 * lens.positions[k];
+    inner.z() = 0.01;
+    lens.positions.push_back(inner);
+  }
+  lens.positions.emplace_back(0, 0, 0.02);
+  for (Index k = 0; k < 6; ++k) {
+    const Index a = 1 + k;
+    const Index b = 1 + (k + 1) % 6;
+    lens.triangles.push_back({a, b, a + 6});
+    lens.triangles.push_back({b, b + 6, a + 6});
+    lens.triangles.push_back({13, a + 6, b + 6});
+  }
+  EXPECT_TRUE(inverted(lens).empty());
+}
+
 TEST(Inverted, DegenerateTriangleIsNotInverted) {
   TriangleMesh mesh = hexagon(0);
   mesh.positions[0] = Vec3(0.5 * (mesh.positions[2] + mesh.positions[3]));
