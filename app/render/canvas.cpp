@@ -36,7 +36,7 @@ void Canvas::text(Font& font, std::string_view utf8, double x, double y, Align a
     for (int row = 0; row < glyph.height; ++row)
       for (int column = 0; column < glyph.width; ++column)
         blend(left + column, baseline - glyph.top + row, color,
-              glyph.coverage[static_cast<std::size_t>(row * glyph.width + column)] / 255.0);
+              glyph.coverage[static_cast<std::size_t>(row) * glyph.width + column] / 255.0);
     x += glyph.advance;
   }
 }
