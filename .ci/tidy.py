@@ -1,0 +1,130 @@
+"""Runs clang-tidy over every source of a build folder: tidy.py BUILD-FOLDER.
+
+Most of clang-tidy's time goes into the same headers again and again, so the sources of a target are first looked at
+together, as one translation unit. Only where that has findings (or does not compile, because two files use a name
+each for itself) are its files looked at one by one, and only what is found there counts. A clean result is kept in
+BUILD-FOLDER/tidy and holds until one of the files, the headers they include, the options or the tool changes.
+"""
+
+import hashlib
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+TOOL = "clang-tidy-14"
+# Together, a dozen files take little more than one.
+FILES_PER_UNIT = 12
+
+
+def read_commands(build, root):
+    """Pairs (source, options): what belongs to one object file is left out of the options."""
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = Path(entry["file"])
+        if not source.is_relative_to(root) or source.is_relative_to(build):
+            continue
+        words = shlex.split(entry["command"])
+        while not Path(words[0]).name.startswith(("g++", "c++", "clang++")):
+            words.pop(0)
+        options, skip = [], False
+        for word in words[1:]:
+            if skip:
+                skip = False
+            elif word in ("-o", "-MF", "-MT", "-MQ", "-c"):
+                skip = True
+            elif word not in ("-MD", "-MMD"):
+                options.append(word)
+        yield source, entry["output"] if "output" in entry else "", tuple(options)
+
+
+def target_of(output):
+    match = re.search(r"CMakeFiles/([^/]+)\.dir/", output)
+    return match.group(1) if match else "other"
+
+
+def make_units(build, root):
+    """Groups of sources with the same options."""
+    groups = {}
+    for source, output, options in read_commands(build, root):
+        groups.setdefault((target_of(output), options), []).append(source)
+    for (target, options), sources in sorted(groups.items()):
+        sources.sort()
+        for first in range(0, len(sources), FILES_PER_UNIT):
+            yield target, first, options, sources[first : first + FILES_PER_UNIT]
+
+
+class Checker:
+    def __init__(self, build, root):
+        self.build, self.root = build, root
+        self.cache = build / "tidy"
+        self.cache.mkdir(exist_ok=True)
+        version = subprocess.run([TOOL, "--version"], capture_output=True, text=True, check=True).stdout
+        self.base = version + (root / ".clang-tidy").read_text() + Path(__file__).read_text()
+        self.digests = {}
+        # Our own headers are seen below build/*/include, through links.
+        escaped = re.escape(str(root))
+        self.header_filter = f"^{escaped}/((core|app|tests)|build/[^/]*/include)/.*\\.(h|cpp)$"
+
+    def digest(self, path):
+        if path not in self.digests:
+            self.digests[path] = hashlib.sha256(path.read_bytes()).hexdigest()
+        return self.digests[path]
+
+    def key(self, options, sources):
+        """Changes with everything that clang-tidy's answer could depend on, system headers apart."""
+        listing = subprocess.run(
+            ["g++", *options, "-MM", *map(str, sources)], capture_output=True, text=True, cwd=self.build
+        )
+        if listing.returncode:
+            return None
+        files = {Path(word) for word in shlex.split(listing.stdout.replace("\\\n", " ")) if not word.endswith(":")}
+        parts = [f"{path} {self.digest(self.build / path)}" for path in sorted(files)]
+        return hashlib.sha256("\n".join([self.base, *options, *parts]).encode()).hexdigest()
+
+    def tidy(self, file, options):
+        command = [TOOL, "--quiet", f"--header-filter={self.header_filter}", str(file), "--", *options]
+        run = subprocess.run(command, capture_output=True, text=True, cwd=self.root, stdin=subprocess.DEVNULL)
+        return run.returncode == 0, run.stdout.strip() or run.stderr.strip()
+
+    def check(self, unit):
+        """Findings of the unit as text; empty when it is clean."""
+        target, first, options, sources = unit
+        key = self.key(options, sources)
+        mark = self.cache / f"{key}.clean"
+        if key and mark.exists():
+            return ""
+        if len(sources) > 1:
+            together = self.cache / f"{target}_{first}.cpp"
+            together.write_text("".join(f'#include "{source}"\n' for source in sources))
+            clean, _ = self.tidy(together, options)
+        else:
+            clean = False
+        findings = []
+        if not clean:
+            results = [self.tidy(source, options) for source in sources]
+            findings = [text for good, text in results if not good]
+        if not findings and key:
+            mark.touch()
+        return "\n".join(findings)
+
+
+def main():
+    build = Path(sys.argv[1]).resolve()
+    root = Path(__file__).resolve().parent.parent
+    checker = Checker(build, root)
+    # The biggest first, so that none is left alone at the end.
+    units = sorted(make_units(build, root), key=lambda unit: -len(unit[3]))
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        findings = [text for text in pool.map(checker.check, units) if text]
+    for text in findings:
+        print(text)
+    print(f"{sum(len(unit[3]) for unit in units)} files looked at, {len(findings)} groups with findings")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# ./test.sh           every check: formatting, warnings as errors, tests, static analysis, the tests again under the
+#                     address, undefined-behaviour and thread sanitizers, and a short run of each fuzzer.
+# ./test.sh --quick   only the build with warnings as errors and its tests.
+# Installs the Debian packages that are missing (.ci/packages.run and .ci/packages.test), through sudo when not root,
+# and says which. The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
+set -uo pipefail
+root=$(CDPATH='' cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")" && pwd -P)
+cd -- "$root" || exit 1
+# shellcheck source=.ci/lib.sh
+. .ci/lib.sh
+exec </dev/null
+# Tests bring their own display where they need one.
+unset DISPLAY WAYLAND_DISPLAY
+
+quick=no
+case "${1:-}" in
+  '') ;;
+  --quick) quick=yes ;;
+  *)
+    sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0" >&2
+    exit 2
+    ;;
+esac
+
+passed=0
+failed=0
+failures=()
+
+# stage NAME COMMAND...: runs it, says how long it took, and keeps the name when it fails. Counts one check.
+stage() {
+  local name=$1 start=$SECONDS
+  shift
+  printf '\n== %s\n' "$name"
+  if "$@"; then
+    passed=$((passed + 1))
+    printf '== %s: ok, %d s\n' "$name" $((SECONDS - start))
+  else
+    failed=$((failed + 1))
+    failures+=("$name")
+    printf '== %s: FAILED, %d s\n' "$name" $((SECONDS - start))
+    return 1
+  fi
+}
+
+# tests NAME PRESET CTEST-ARGUMENTS...: runs the tests of a preset; counts each test case of each program.
+tests() {
+  local name=$1 preset=$2 start=$SECONDS status=0 counts
+  shift 2
+  printf '\n== %s\n' "$name"
+  ctest --preset "$preset" -j "$(nproc)" --timeout 600 --no-tests=error "$@" || status=1
+  read -r -a counts < <(.ci/count_tests "build/$preset/Testing/Temporary/LastTest.log")
+  passed=$((passed + ${counts[0]:-0}))
+  failed=$((failed + ${counts[1]:-0}))
+  [ "$status" -ne 0 ] && [ "${counts[1]:-0}" -eq 0 ] && failed=$((failed + 1))
+  if [ "$status" -eq 0 ]; then
+    printf '== %s: ok, %d s\n' "$name" $((SECONDS - start))
+  else
+    failures+=("$name")
+    printf '== %s: FAILED, %d s\n' "$name" $((SECONDS - start))
+  fi
+}
+
+# build PRESET [TARGET...], in a shell of its own: a failure ends the stage and not the script.
+build() { (build_preset "$root" "$@"); }
+
+finish() {
+  printf '\n%d s in total\n' "$SECONDS"
+  [ ${#failures[@]} -eq 0 ] || printf 'FAILED: %s\n' "${failures[@]}"
+  printf '%d passed, %d failed\n' "$passed" "$failed"
+  [ "$failed" -eq 0 ]
+  exit
+}
+
+check_format() {
+  find core app tests \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format-14 --dry-run -Werror
+}
+
+(install_packages .ci/packages.run .ci/packages.test) || { failed=1 failures=(packages); finish; }
+
+[ "$quick" = yes ] || stage 'formatting (clang-format)' check_format
+stage 'build, warnings are errors' build ci || finish
+tests 'tests' ci
+[ "$quick" = yes ] && finish
+
+stage 'static analysis (clang-tidy)' python3 .ci/tidy.py build/ci
+
+if stage 'build with address and undefined-behaviour sanitizers' build asan; then
+  # Some containers forbid what the leak detector does to its own process.
+  leaks=1
+  if build/asan/bin/isorelax --version 2>&1 | grep -q 'LeakSanitizer has encountered a fatal error'; then
+    leaks=0
+    say 'Leaks are not looked for: this system does not let a process trace itself.'
+  fi
+  ASAN_OPTIONS="detect_leaks=$leaks:strict_string_checks=1:detect_stack_use_after_return=1" \
+    LSAN_OPTIONS="suppressions='$root/.ci/leaks.supp':print_suppressions=0" \
+    UBSAN_OPTIONS='print_stacktrace=1' \
+    tests 'tests with address and undefined-behaviour sanitizers' asan -LE 'corpus|bench'
+fi
+
+# The rooms that compute on several threads, and the session with its worker.
+threaded=(mesh quality surface smoothing model)
+if stage 'build with thread sanitizer' build tsan "${threaded[@]/#/test_}"; then
+  TSAN_OPTIONS="halt_on_error=1:suppressions='$root/.ci/threads.supp'" \
+    tests 'tests with thread sanitizer' tsan -R "^($(IFS='|'; echo "${threaded[*]}"))\$"
+fi
+
+if stage 'build of the fuzzers' build fuzz fuzzers; then
+  tests 'fuzzers, briefly' fuzz
+fi
+finish
