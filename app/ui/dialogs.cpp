@@ -28,7 +28,7 @@ void draw_shortcut_group(const Ui& ui, std::string_view group) {
   for (const Shortcut& shortcut : shortcuts()) {
     if (shortcut.group != group) continue;
     text_in(ui.fonts.text, color::kText, shortcut.keys);
-    ImGui::SameLine(ImGui::GetColumnOffset() + ui.px(118));
+    ImGui::SameLine(ui.px(118));
     text_in(ui.fonts.text, color::kTextDim, shortcut.text);
   }
   ImGui::Dummy({0, ui.px(4)});
@@ -47,7 +47,7 @@ void draw_pointer_help(const Ui& ui) {
   text_in(ui.fonts.heading, color::kAccent, "Pointer and focus");
   for (const auto& [keys, text] : kLines) {
     text_in(ui.fonts.text, color::kText, keys);
-    ImGui::SameLine(ImGui::GetColumnOffset() + ui.px(150));
+    ImGui::SameLine(ui.px(150));
     text_in(ui.fonts.text, color::kTextDim, text);
   }
 }

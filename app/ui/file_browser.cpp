@@ -147,7 +147,7 @@ void accept(const Ui& ui) {
 
 void place_button(const Ui& ui, std::string_view name, std::string_view label, const fs::path& folder) {
   if (folder.empty()) return;
-  if (button(ui, name, label, {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x}))
+  if (button(ui, name, label, {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x, .align = ButtonAlign::left}))
     enter(ui.state.browser, folder);
 }
 
@@ -166,7 +166,7 @@ void draw_places(const Ui& ui, float width, float height) {
   for (std::size_t k = 0; k < std::min<std::size_t>(ui.session.recent.size(), 6); ++k) {
     const fs::path& path = ui.session.recent[k];
     if (button(ui, "browser-recent/" + std::to_string(k), path.filename().string(),
-               {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x})) {
+               {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x, .align = ButtonAlign::left})) {
       enter(ui.state.browser, path.parent_path());
       ui.state.browser.name = path.filename().string();
     }

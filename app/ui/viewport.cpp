@@ -82,8 +82,10 @@ void draw_notice(const Ui& ui, const Rect& rect) {
   ImGui::PopTextWrapPos();
   const ImVec2 low = ImGui::GetWindowPos();
   const ImVec2 size = ImGui::GetWindowSize();
-  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.px(4), low.y + size.y}, tint, ui.px(6),
-                                            ImDrawFlags_RoundCornersLeft);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(low, {low.x + size.x, low.y + size.y});
+  draw.AddRectFilled(low, {low.x + ui.px(4), low.y + size.y}, tint, ui.px(6), ImDrawFlags_RoundCornersLeft);
+  draw.PopClipRect();
   mark_area(ui, "notice", {low, {low.x + size.x, low.y + size.y}});
   ImGui::End();
   ImGui::PopStyleVar(2);

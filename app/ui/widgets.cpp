@@ -79,6 +79,7 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
   const float icon = style.icon != Icon::none ? ui.px(14) : 0;
   const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
   float x = low.x + 0.5F * (width - icon - gap - text.x);
+  if (style.align == ButtonAlign::left) x = low.x + ImGui::GetStyle().FramePadding.x;
   const ImU32 color = ImGui::GetColorU32(colors.text);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (icon > 0) draw_icon(draw, style.icon, {x + 0.5F * icon, low.y + 0.5F * height}, icon, color);

@@ -28,11 +28,14 @@ enum class Icon : std::uint8_t {
 
 enum class ButtonLook : std::uint8_t { plain, accent, quiet, pressed };
 
+enum class ButtonAlign : std::uint8_t { center, left };
+
 struct ButtonStyle {
   Icon icon = Icon::none;
   ButtonLook look = ButtonLook::plain;
   float width = 0;   ///< pixels; 0: as wide as its content
   float height = 0;  ///< pixels; 0: a control's height
+  ButtonAlign align = ButtonAlign::center;
   bool enabled = true;
 };
 

@@ -215,7 +215,10 @@ void run_frames(GLFWwindow* window, editor::Editor& editor, Host& host, const Wi
     if (options.frames && drawn >= *options.frames && !editor.session().engine.busy() &&
         !editor.is_restless())
       break;
-    host.wait();
+    if (options.frames)
+      glfwPollEvents();
+    else
+      host.wait();
   }
 }
 

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "app/temporary_mesh.h"
+#include "editor/screenshot.h"
+#include "mesh/error.h"
+#include "render/offscreen.h"
+#include "support/image_compare.h"
+
+namespace isorelax::editor {
+namespace {
+
+using render::Image;
+
+constexpr render::PictureSize kSize{1280, 720};
+
+/// The whole editor without a display: driven by input events, looked at as pictures.
+class EditorTest : public ::testing::Test {
+ protected:
+  void frames(int count = 4) {
+    for (int k = 0; k < count; ++k) editor.frame({.size = kSize, .scale = 1, .time = time += 0.02});
+  }
+  void settle() {
+    do {
+      frames(1);
+    } while (editor.is_restless() || editor.session().engine.busy());
+    frames(2);
+  }
+  void open(const std::filesystem::path& path) {
+    model::execute(editor.session(), model::OpenFile{path});
+    model::finish(editor.session());
+    settle();
+  }
+  void press(ui::Key key, ui::Modifiers modifiers = {}) {
+    editor.interface().input().push(ui::KeyChanged{key, true, modifiers});
+    editor.interface().input().push(ui::KeyChanged{key, false, {}});
+    settle();
+  }
+  void move_to(const std::string& name) {
+    const ImVec2 at = editor.interface().state().rects.at(name).center();
+    editor.interface().input().push(ui::PointerMoved{at.x, at.y});
+    settle();
+  }
+  void click(const std::string& name) {
+    move_to(name);
+    editor.interface().input().push(ui::ButtonChanged{0, true});
+    editor.interface().input().push(ui::ButtonChanged{0, false});
+    settle();
+  }
+  /// The part of the last picture inside a recorded rectangle.
+  [[nodiscard]] Image part(const std::string& name) const {
+    const ui::Rect rect = const_cast<Editor&>(editor).interface().state().rects.at(name);
+    const Image whole = editor.picture();
+    Image image(static_cast<int>(rect.width()), static_cast<int>(rect.height()));
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        std::ranges::copy(whole.at(x + static_cast<int>(rect.low.x), y + static_cast<int>(rect.low.y)),
+                          image.at(x, y).begin());
+    return image;
+  }
+  /// Leaves the picture where a person can look at it.
+  void keep(const std::string& name) const {
+    const std::filesystem::path pictures = std::filesystem::path(ISORELAX_BINARY_DIR) / "editor_pictures";
+    std::filesystem::create_directories(pictures);
+    render::write_png(pictures / (name + ".png"), editor.picture());
+  }
+
+  test::TemporaryFolder folder;
+  std::unique_ptr<render::OffscreenContext> context =
+      render::OffscreenContext::create(render::ContextKind::osmesa);
+  Editor editor{context->loader(), Motion::instant};
+  double time = 0;
+};
+
+TEST_F(EditorTest, AStepChangesTheMeshOnScreenAndTheNumbersBesideIt) {
+  open(folder.make_square());
+  const Image mesh = part("viewport");
+  const Image angle = part("figure/Mean smallest");
+  click("step");
+  EXPECT_FALSE(mesh == part("viewport"));
+  EXPECT_FALSE(angle == part("figure/Mean smallest"));
+  keep("step");
+}
+
+TEST_F(EditorTest, NothingChangesOnScreenWhenNothingWasDone) {
+  open(folder.make_square());
+  const Image before = editor.picture();
+  frames(10);
+  EXPECT_TRUE(before == editor.picture());
+}
+
+TEST_F(EditorTest, EachColouringLooksDifferent) {
+  open(folder.make_square());
+  std::vector<Image> pictures;
+  for (const ui::Key key :
+       {ui::Key::digit1, ui::Key::digit2, ui::Key::digit3, ui::Key::digit4, ui::Key::digit5}) {
+    press(key);
+    for (const Image& other : pictures) EXPECT_FALSE(other == part("viewport"));
+    pictures.push_back(part("viewport"));
+    keep("colouring" + std::to_string(pictures.size()));
+  }
+}
+
+TEST_F(EditorTest, ReloadingKeepsTheCameraAndAnotherFileGetsItsOwn) {
+  const auto path = folder.make_square();
+  open(path);
+  move_to("viewport");
+  editor.interface().input().push(ui::WheelTurned{0, 3});
+  settle();
+  const render::Camera zoomed = editor.camera();
+  open(path);
+  EXPECT_EQ(editor.camera(), zoomed);
+  open(folder.make_square(100, "other.off"));
+  EXPECT_FALSE(editor.camera() == zoomed);
+}
+
+TEST_F(EditorTest, ThePictureIsSavedAsTheViewportShowsIt) {
+  open(folder.make_square());
+  press(ui::Key::f12);
+  click("browser-accept");
+  const Image saved = render::read_png(folder / "square.png");
+  EXPECT_TRUE(saved == part("viewport"));
+}
+
+TEST_F(EditorTest, StatesLookAsAccepted) {
+  frames();
+  keep("welcome");
+  EXPECT_TRUE(test::matches_baseline(editor.picture(), "editor_welcome"));
+  open(folder.make_square());
+  const test::ImageLimits limits;
+  EXPECT_FALSE(test::compare_images(editor.picture(), test::read_baseline("editor_after_run"), limits).within(limits))
+      << "a run must be seen";
+  editor.session().smoothing.iterations = 30;
+  editor.session().smoothing.tolerance = 0;
+  click("run");
+  move_to("viewport");
+  keep("after_run");
+  EXPECT_TRUE(test::matches_baseline(editor.picture(), "editor_after_run"));
+  press(ui::Key::question);
+  keep("help");
+  EXPECT_TRUE(test::matches_baseline(editor.picture(), "editor_help"));
+  press(ui::Key::escape);
+}
+
+TEST_F(EditorTest, OtherStatesCanBeLookedAt) {
+  open(folder.make_square());
+  press(ui::Key::tab);
+  press(ui::Key::tab);
+  keep("focus");
+  press(ui::Key::escape);
+  press(ui::Key::n);
+  keep("selection");
+  press(ui::Key::right);
+  press(ui::Key::o, {.control = true});
+  std::ofstream(folder / "broken.off") << "OFF\n1 2\n";
+  keep("browser");
+  press(ui::Key::escape);
+  open(folder / "broken.off");
+  keep("notice");
+  editor.interface().ask_to_quit();
+  settle();
+  keep("unsaved");
+  press(ui::Key::escape);
+  move_to("mu");
+  for (int k = 0; k < 60; ++k) frames(1);
+  keep("tooltip");
+  move_to("angle-plot");
+  keep("hover");
+  press(ui::Key::h);
+  keep("hidden_panels");
+  EXPECT_TRUE(
+      std::filesystem::exists(std::filesystem::path(ISORELAX_BINARY_DIR) / "editor_pictures" / "hover.png"));
+}
+
+TEST_F(EditorTest, AtDoubleScaleEverythingIsTwiceAsLarge) {
+  open(folder.make_square());
+  const ui::Rect single = editor.interface().state().rects.at("run");
+  for (int k = 0; k < 4; ++k) editor.frame({.size = {2560, 1440}, .scale = 2, .time = time += 0.02});
+  const ui::Rect twice = editor.interface().state().rects.at("run");
+  EXPECT_NEAR(twice.width(), 2 * single.width(), 2);
+  EXPECT_NEAR(twice.low.y, 2 * single.low.y, 16);
+  keep("scale2");
+}
+
+TEST(Screenshot, ABadFileIsAnError) {
+  EXPECT_THROW((void)take_screenshot({.file = "/no/such/mesh.off"}), Error);
+}
+
+}  // namespace
+}  // namespace isorelax::editor
