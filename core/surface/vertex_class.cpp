@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesh/parallel.h"
+#include "surface/feature_edges.h"
 
 namespace isorelax {
 namespace {
@@ -89,30 +90,8 @@ class Classifier {
     set(v, VertexClass::ridge, std::min({std::max(spread_over, sharp_over), -defect, -third}));
   }
 
-  /// Dihedral turn across the edge opposite to `corner`, degrees; 0 where there are not two faces with area.
   [[nodiscard]] double turn_across(Corner corner) const {
-    const Corner other = topology_.opposite(corner);
-    if (other == kNone) return 0;
-    const Vec3 a = normal(corner / 3);
-    Vec3 b = normal(other / 3);
-    if (a.isZero(0) || b.isZero(0)) return 0;
-    const Triangle& t = triangles_[corner / 3];
-    const Triangle& u = triangles_[other / 3];
-    if (t[next(corner % 3)] == u[next(other % 3)]) b = -b;  // the two run along the edge the same way
-    return angle_between(a, b);
-  }
-
-  [[nodiscard]] Vec3 normal(Index t) const {
-    const Triangle& v = triangles_[t];
-    return area_vector(x_[v[0]], x_[v[1]], x_[v[2]]);
-  }
-
-  /// A sliver's normal points anywhere, but its area carries no weight in the covariance: an edge is a crease
-  /// only where the covariance of both ends agrees at least half-way.
-  [[nodiscard]] bool is_crease(Index v, Index w, double turn) const {
-    const double both = std::min(r_.spread_deg[v], r_.spread_deg[w]);
-    return (turn >= options_.ridge_angle_deg && both >= options_.ridge_angle_deg) ||
-           (turn > options_.sharp_edge_deg && both >= 0.5 * options_.ridge_angle_deg);
+    return dihedral_turn_deg(x_, triangles_, topology_, corner);
   }
 
   [[nodiscard]] bool has_sharp_edge(Index v) const {
@@ -138,7 +117,9 @@ class Classifier {
     return neighbours_where(v, [&](Corner edge, Index) { return topology_.is_boundary_edge(edge); });
   }
   [[nodiscard]] std::vector<Index> crease_neighbours(Index v) const {
-    return neighbours_where(v, [&](Corner edge, Index w) { return is_crease(v, w, turn_across(edge)); });
+    return neighbours_where(v, [&](Corner edge, Index w) {
+      return is_crease(options_, turn_across(edge), {r_.spread_deg[v], r_.spread_deg[w]});
+    });
   }
 
   std::span<const Vec3> x_;

@@ -1,0 +1,108 @@
+#include "surface/height_fit.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace isorelax {
+namespace {
+
+/// Monomials of degree 1..d in two variables.
+constexpr int term_count(int degree) {
+  return (degree + 1) * (degree + 2) / 2 - 1;
+}
+
+/// u, v, u^2, u v, v^2, u^3, ...: a lower degree is a leading part.
+template <typename Row>
+void fill_terms(double u, double v, int degree, Row&& row) {
+  row[0] = u;
+  row[1] = v;
+  int from = 0;
+  for (int d = 2, to = 2; d <= degree; ++d) {
+    for (int i = 0; i < d; ++i) row[to + i] = row[from + i] * u;
+    row[to + d] = row[from + d - 1] * v;
+    from = to;
+    to += d + 1;
+  }
+}
+
+}  // namespace
+
+std::size_t HeightFit::samples_for(const HeightFitOptions& options) {
+  const int terms = term_count(std::min(options.degree, kMaxDegree));
+  return static_cast<std::size_t>(std::ceil(options.samples_per_unknown * terms));
+}
+
+HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<const FitSample> samples,
+                     const HeightFitOptions& options)
+    : origin_(origin), normal_(unit_normal) {
+  constexpr int kRows = kMaxSamples;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRows, kMaxTerms>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kRows, 1>;
+
+  t1_ = normal_.unitOrthogonal();
+  t2_ = normal_.cross(t1_);
+  samples = samples.first(std::min<std::size_t>(samples.size(), kRows));
+  double radius2 = 0, mean2 = 0;
+  for (const FitSample& s : samples) {
+    radius2 = std::max(radius2, (s.point - origin).squaredNorm());
+    mean2 += (s.point - origin).squaredNorm() / static_cast<double>(samples.size());
+  }
+  if (!(radius2 > 0)) return;
+  const double scale = 1 / std::sqrt(radius2);
+  t1_ *= scale;
+  t2_ *= scale;
+
+  int degree = std::min(options.degree, kMaxDegree);
+  const auto rows = static_cast<Eigen::Index>(samples.size());
+  const auto enough = [&](int d) {
+    return static_cast<double>(rows) >= options.samples_per_unknown * term_count(d);
+  };
+  while (degree > 1 && !enough(degree)) --degree;
+  if (degree < 2) return;
+
+  Matrix a(rows, term_count(degree));
+  Vector heights(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Vec3 d = samples[i].point - origin;
+    const double facing = std::max(0.0, samples[i].normal.dot(normal_));
+    const double weight = facing / std::pow(d.squaredNorm() / mean2 + 0.01, 0.25 * degree);
+    fill_terms(d.dot(t1_), d.dot(t2_), degree, a.row(i));
+    a.row(i) *= weight;
+    heights[i] = weight * d.dot(normal_);
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1> norms = a.colwise().norm();
+  for (Eigen::Index k = 0; k < norms.size(); ++k) {
+    norms[k] = norms[k] > 0 ? 1 / norms[k] : 0;
+    a.col(k) *= norms[k];
+  }
+  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(a);
+  const auto& r = qr.matrixQR();
+  // |R_kk| is the part of a unit column that the columns before it do not explain.
+  const auto determined = [&](int d) {
+    for (int k = 0; k < term_count(d); ++k)
+      if (!(std::abs(r(k, k)) >= options.independence)) return false;
+    return true;
+  };
+  while (degree > 1 && !determined(degree)) --degree;
+  if (degree < 2) return;
+  const int terms = term_count(degree);
+  heights.applyOnTheLeft(qr.householderQ().adjoint());
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1> solution = heights.head(terms);
+  r.topLeftCorner(terms, terms).triangularView<Eigen::Upper>().solveInPlace(solution);
+  for (int k = 0; k < terms; ++k) coefficients_[k] = solution[k] * norms[k];
+  degree_ = degree;
+}
+
+Vec3 HeightFit::lift(const Vec3& point) const {
+  if (degree_ == 0) return point;
+  const Vec3 d = point - origin_;
+  const double height = d.dot(normal_);
+  std::array<double, kMaxTerms> terms;
+  fill_terms(d.dot(t1_), d.dot(t2_), degree_, terms);
+  double f = 0;
+  for (int k = 0; k < term_count(degree_); ++k) f += coefficients_[k] * terms[k];
+  return point + (f - height) * normal_;
+}
+
+}  // namespace isorelax
