@@ -22,6 +22,12 @@ struct OneWay {
   double area = 0;
 };
 
+/// A distance, and the triangle of the other surface that it leads to.
+struct Sample {
+  double distance = 0;
+  Index nearest = kNone;
+};
+
 Vec3 at(std::span<const Vec3> x, const Triangle& t, const Vec3& weights) {
   return weights[0] * x[t[0]] + weights[1] * x[t[1]] + weights[2] * x[t[2]];
 }
@@ -38,18 +44,21 @@ class Sampler {
     sample_vertices();
     sample_edges();
     OneWay result = sample_triangles();
-    for (const double d : vertex_) result.max = std::max(result.max, d);
-    result.max = std::max(result.max, refined());
+    refine();
+    for (const Sample& s : worst_) result.max = std::max(result.max, s.distance);
     return result;
   }
 
+  /// The farthest sample of each triangle.
+  [[nodiscard]] std::span<const Sample> worst() const { return worst_; }
+
  private:
   void sample_vertices() {
-    vertex_.assign(x_.size(), 0);
+    vertex_.assign(x_.size(), {});
     parallel_for_blocks(x_.size(), threads_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const auto corners = topology_.corners_of(static_cast<Index>(v));
-        if (!corners.empty()) vertex_[v] = index_.closest(x_[v], corners[0] / 3).distance;
+        if (!corners.empty()) vertex_[v] = sample(x_[v], corners[0] / 3);
       }
     });
   }
@@ -58,19 +67,19 @@ class Sampler {
   [[nodiscard]] Corner owner(Corner corner) const { return std::min(corner, topology_.opposite(corner)); }
 
   void sample_edges() {
-    edge_.assign(3 * triangles_.size(), 0);
+    edge_.assign(3 * triangles_.size(), {});
     parallel_for_blocks(edge_.size(), threads_, [&](std::size_t begin, std::size_t end) {
       for (Corner c = static_cast<Corner>(begin); c < end; ++c) {
         if (owner(c) != c) continue;
         const Triangle& t = triangles_[c / 3];
         const Vec3 middle = 0.5 * (x_[t[next(c % 3)]] + x_[t[previous(c % 3)]]);
-        edge_[c] = index_.closest(middle, c / 3).distance;
+        edge_[c] = sample(middle, c / 3);
       }
     });
   }
 
   OneWay sample_triangles() {
-    worst_.assign(triangles_.size(), 0);
+    worst_.assign(triangles_.size(), {});
     std::vector<OneWay> parts(block_count(triangles_.size()));
     parallel_for_blocks(triangles_.size(), threads_, [&](std::size_t begin, std::size_t end) {
       OneWay& part = parts[begin / kBlockSize];
@@ -79,12 +88,10 @@ class Sampler {
         const double area = 0.5 * area_vector(x_[a], x_[b], x_[c]).norm();
         part.squares += area * mean_square(static_cast<Index>(t));
         part.area += area;
-        part.max = std::max(part.max, worst_[t]);
       }
     });
     OneWay all;
     for (const OneWay& part : parts) {
-      all.max = std::max(all.max, part.max);
       all.squares += part.squares;
       all.area += part.area;
     }
@@ -92,41 +99,43 @@ class Sampler {
   }
 
   double mean_square(Index t) {
-    double corners = 0, middles = 0, inner = 0, worst = 0;
+    double corners = 0, middles = 0, inner = 0;
+    const auto squared = [&](const Sample& s) {
+      if (s.distance > worst_[t].distance) worst_[t] = s;
+      return s.distance * s.distance;
+    };
     for (unsigned k = 0; k < 3; ++k) {
-      const double corner = vertex_[triangles_[t][k]];
-      const double middle = edge_[owner(3 * t + k)];
       Vec3 weights = Vec3::Constant(1.0 / 6);
       weights[k] = 2.0 / 3;
-      const double inside = distance(t, weights);
-      corners += corner * corner;
-      middles += middle * middle;
-      inner += inside * inside;
-      worst = std::max({worst, corner, middle, inside});
+      corners += squared(vertex_[triangles_[t][k]]);
+      middles += squared(edge_[owner(3 * t + k)]);
+      inner += squared(sample(t, weights));
     }
-    const double centroid = distance(t, Vec3::Constant(1.0 / 3));
-    worst_[t] = std::max(worst, centroid);
-    return 0.5 * (corners / 20 + middles * 2 / 15 + centroid * centroid * 9 / 20) + 0.5 * inner / 3;
+    const double centroid = squared(sample(t, Vec3::Constant(1.0 / 3)));
+    return 0.5 * (corners / 20 + middles * 2 / 15 + centroid * 9 / 20) + 0.5 * inner / 3;
   }
 
-  [[nodiscard]] double distance(Index t, const Vec3& weights) const {
-    return index_.closest(at(x_, triangles_[t], weights), t).distance;
+  [[nodiscard]] Sample sample(const Vec3& point, Index hint) const {
+    const SurfacePoint found = index_.closest(point, hint);
+    return {found.distance, found.triangle};
+  }
+  [[nodiscard]] Sample sample(Index t, const Vec3& weights) const {
+    return sample(at(x_, triangles_[t], weights), t);
   }
 
-  [[nodiscard]] double refined() const {
+  void refine() {
     std::vector<Index> order(triangles_.size());
     std::iota(order.begin(), order.end(), Index{0});
     const std::size_t count = std::min(kRefinedTriangles, order.size());
     std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](Index a, Index b) {
-      return worst_[a] != worst_[b] ? worst_[a] > worst_[b] : a < b;
+      const double x = worst_[a].distance, y = worst_[b].distance;
+      return x != y ? x > y : a < b;
     });
-    double max = 0;
-    for (std::size_t i = 0; i < count; ++i) max = std::max(max, search_inside(order[i]));
-    return max;
+    for (std::size_t i = 0; i < count; ++i) search_inside(order[i]);
   }
 
   /// Largest distance on a triangle: a grid over all of it, then finer ones about the best point so far.
-  [[nodiscard]] double search_inside(Index t) const {
+  void search_inside(Index t) {
     Vec3 centre = Vec3::Constant(1.0 / 3);
     double size = 1, best = 0;
     for (int round = 0; round < kGridRounds; ++round, size *= 0.25) {
@@ -136,12 +145,12 @@ class Sampler {
           const Vec3 grid(i, j, kGridSteps - i - j);
           const Vec3 weights = from + size * (grid / kGridSteps - Vec3::Constant(1.0 / 3));
           if (weights.minCoeff() < -1e-12) continue;
-          const double d = distance(t, weights);
-          if (d > best) best = d, centre = weights;
+          const Sample found = sample(t, weights);
+          if (found.distance > worst_[t].distance) worst_[t] = found;
+          if (found.distance > best) best = found.distance, centre = weights;
         }
       }
     }
-    return best;
   }
 
   std::span<const Vec3> x_;
@@ -149,7 +158,7 @@ class Sampler {
   const Topology& topology_;
   unsigned threads_;
   ClosestPointIndex index_;
-  std::vector<double> vertex_, edge_, worst_;
+  std::vector<Sample> vertex_, edge_, worst_;
 };
 
 bool is_closed(const Topology& topology) {
@@ -199,13 +208,29 @@ double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle
 
 Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,
                             std::span<const Triangle> triangles, const Topology& topology, unsigned threads) {
-  Deviation result;
+  return measure_deviation_by_triangle(original, changed, triangles, topology, threads).whole;
+}
+
+DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original,
+                                                  std::span<const Vec3> changed,
+                                                  std::span<const Triangle> triangles,
+                                                  const Topology& topology, unsigned threads) {
+  DeviationByTriangle all{{}, std::vector<double>(triangles.size(), 0)};
+  Deviation& result = all.whole;
   Eigen::AlignedBox3d box;
   for (const Vec3& x : original) box.extend(x);
-  if (original.empty() || triangles.empty() || !(box.diagonal().norm() > 0)) return result;
+  if (original.empty() || triangles.empty() || !(box.diagonal().norm() > 0)) return all;
   const double diagonal = box.diagonal().norm();
-  const OneWay there = Sampler(changed, original, triangles, topology, threads).measure();
-  const OneWay back = Sampler(original, changed, triangles, topology, threads).measure();
+  Sampler from_changed(changed, original, triangles, topology, threads);
+  Sampler from_original(original, changed, triangles, topology, threads);
+  const OneWay there = from_changed.measure();
+  const OneWay back = from_original.measure();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    double& own = all.largest[t];
+    own = std::max(own, from_changed.worst()[t].distance / diagonal);
+    const Sample& s = from_original.worst()[t];
+    if (s.nearest != kNone) all.largest[s.nearest] = std::max(all.largest[s.nearest], s.distance / diagonal);
+  }
   result.max_to_original = there.max / diagonal;
   result.max_to_new = back.max / diagonal;
   result.max = std::max(result.max_to_original, result.max_to_new);
@@ -218,7 +243,7 @@ Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3
     result.has_volume = true;
     result.volume_change = (enclosed_volume(changed, triangles, threads) - volume) / std::abs(volume);
   }
-  return result;
+  return all;
 }
 
 }  // namespace isorelax

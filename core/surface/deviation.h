@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "mesh/topology.h"
 
@@ -33,6 +34,22 @@ struct Deviation {
 [[nodiscard]] Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,
                                           std::span<const Triangle> triangles, const Topology& topology,
                                           unsigned threads = 0);
+
+/// A deviation and where it is.
+struct DeviationByTriangle {
+  Deviation whole;
+  /// Largest distance that was found on each triangle of the new surface, either way, over the diagonal; the
+  /// largest of all is whole.max. A part of the original counts for the triangle that its farthest sample is
+  /// nearest to: who keeps a limit takes back the triangles above it and measures again.
+  std::vector<double> largest;
+};
+
+/// The same measurement, with its largest distance for each triangle.
+[[nodiscard]] DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original,
+                                                                std::span<const Vec3> changed,
+                                                                std::span<const Triangle> triangles,
+                                                                const Topology& topology,
+                                                                unsigned threads = 0);
 
 /// Volume enclosed by consistently oriented triangles, positive with normals to the outside: the divergence
 /// theorem about the mean of the vertices. Cubed length units; meaningless for an open surface.

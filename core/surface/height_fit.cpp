@@ -26,6 +26,38 @@ void fill_terms(double u, double v, int degree, Row&& row) {
   }
 }
 
+constexpr int kMaxTerms = term_count(HeightFit::kMaxDegree);
+constexpr int kMaxRows = HeightFit::kMaxSamples;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kMaxTerms>;
+using Heights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
+using Terms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1>;
+
+/// Least squares a * coefficients = b of the highest degree that `a` determines; destroys a and b. Returns
+/// that degree, or 0 where it is under 2.
+int solve(Matrix& a, Heights& b, int degree, double independence, std::span<double> coefficients) {
+  Terms scale = a.colwise().norm();
+  for (Eigen::Index k = 0; k < scale.size(); ++k) {
+    scale[k] = scale[k] > 0 ? 1 / scale[k] : 0;
+    a.col(k) *= scale[k];
+  }
+  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(a);
+  const auto& r = qr.matrixQR();
+  // |R_kk| is the part of a unit column that the columns before it do not explain.
+  const auto determined = [&](int d) {
+    for (int k = 0; k < term_count(d); ++k)
+      if (!(std::abs(r(k, k)) >= independence)) return false;
+    return true;
+  };
+  while (degree > 1 && !determined(degree)) --degree;
+  if (degree < 2) return 0;
+  const int terms = term_count(degree);
+  b.applyOnTheLeft(qr.householderQ().adjoint());
+  Terms solution = b.head(terms);
+  r.topLeftCorner(terms, terms).triangularView<Eigen::Upper>().solveInPlace(solution);
+  for (int k = 0; k < terms; ++k) coefficients[k] = solution[k] * scale[k];
+  return degree;
+}
+
 }  // namespace
 
 std::size_t HeightFit::samples_for(const HeightFitOptions& options) {
@@ -36,13 +68,9 @@ std::size_t HeightFit::samples_for(const HeightFitOptions& options) {
 HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<const FitSample> samples,
                      const HeightFitOptions& options)
     : origin_(origin), normal_(unit_normal) {
-  constexpr int kRows = kMaxSamples;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRows, kMaxTerms>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kRows, 1>;
-
   t1_ = normal_.unitOrthogonal();
   t2_ = normal_.cross(t1_);
-  samples = samples.first(std::min<std::size_t>(samples.size(), kRows));
+  samples = samples.first(std::min<std::size_t>(samples.size(), kMaxSamples));
   double radius2 = 0, mean2 = 0;
   for (const FitSample& s : samples) {
     radius2 = std::max(radius2, (s.point - origin).squaredNorm());
@@ -62,7 +90,7 @@ HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<cons
   if (degree < 2) return;
 
   Matrix a(rows, term_count(degree));
-  Vector heights(rows);
+  Heights heights(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Vec3 d = samples[i].point - origin;
     const double facing = std::max(0.0, samples[i].normal.dot(normal_));
@@ -71,27 +99,7 @@ HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<cons
     a.row(i) *= weight;
     heights[i] = weight * d.dot(normal_);
   }
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1> norms = a.colwise().norm();
-  for (Eigen::Index k = 0; k < norms.size(); ++k) {
-    norms[k] = norms[k] > 0 ? 1 / norms[k] : 0;
-    a.col(k) *= norms[k];
-  }
-  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(a);
-  const auto& r = qr.matrixQR();
-  // |R_kk| is the part of a unit column that the columns before it do not explain.
-  const auto determined = [&](int d) {
-    for (int k = 0; k < term_count(d); ++k)
-      if (!(std::abs(r(k, k)) >= options.independence)) return false;
-    return true;
-  };
-  while (degree > 1 && !determined(degree)) --degree;
-  if (degree < 2) return;
-  const int terms = term_count(degree);
-  heights.applyOnTheLeft(qr.householderQ().adjoint());
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1> solution = heights.head(terms);
-  r.topLeftCorner(terms, terms).triangularView<Eigen::Upper>().solveInPlace(solution);
-  for (int k = 0; k < terms; ++k) coefficients_[k] = solution[k] * norms[k];
-  degree_ = degree;
+  degree_ = solve(a, heights, degree, options.independence, coefficients_);
 }
 
 Vec3 HeightFit::lift(const Vec3& point) const {

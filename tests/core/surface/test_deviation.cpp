@@ -111,6 +111,27 @@ TEST(Deviation, FindsPeaksBetweenTheSamples) {
   }
 }
 
+TEST(Deviation, NamesTheTrianglesThatAreFar) {
+  const TriangleMesh mesh = with_triangles(ShapeKind::hexagonal_square, 600);
+  std::vector<Vec3> moved = mesh.positions;
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  Index inner = 0;
+  while ((mesh.positions[inner] - Vec3(0.5, 0.5, 0)).norm() > 0.1) ++inner;
+  moved[inner].z() = 0.05;
+  const DeviationByTriangle d =
+      measure_deviation_by_triangle(mesh.positions, moved, mesh.triangles, topology, 1);
+  EXPECT_EQ(d.whole.max, *std::max_element(d.largest.begin(), d.largest.end()));
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const bool touches = v[0] == inner || v[1] == inner || v[2] == inner;
+    if (touches) {
+      EXPECT_NEAR(d.largest[t], 0.05 / std::sqrt(2.0), 1e-12);
+    } else {
+      EXPECT_LT(d.largest[t], 1e-15);
+    }
+  }
+}
+
 TEST(Deviation, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh mesh = with_triangles(ShapeKind::torus, 9000);
   std::vector<Vec3> moved = mesh.positions;

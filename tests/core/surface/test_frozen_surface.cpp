@@ -197,14 +197,12 @@ TEST(FrozenSurface, DoesNotLetASmoothVertexOverACrease) {
   const Frozen f(with_triangles(ShapeKind::cube, 1200));
   for (Index v = 0; v < f.mesh.vertex_count(); ++v) {
     if (f.classes.classes[v] != VertexClass::smooth) continue;
+    const auto& [a, b, c] = f.mesh.triangles[f.surface.anchor(v).triangle];
+    const Vec3 n = area_vector(f.mesh.positions[a], f.mesh.positions[b], f.mesh.positions[c]).normalized();
     for (int k = 0; k < 3; ++k) {
-      Vec3 beyond = f.mesh.positions[v];
-      beyond[k] += 1.5;
-      const Projection p = f.project(v, beyond);
-      // Still in the plane of its own face.
-      const auto& [a, b, c] = f.mesh.triangles[f.surface.anchor(v).triangle];
-      const Vec3 n = area_vector(f.mesh.positions[a], f.mesh.positions[b], f.mesh.positions[c]).normalized();
-      EXPECT_NEAR(n.dot(p.point - f.mesh.positions[v]), 0, 1e-12);
+      // Beyond an edge and deep under the face: nearest to the side behind the edge.
+      const Vec3 beyond = f.mesh.positions[v] + 1.5 * Vec3::Unit(k) - 0.4 * n;
+      EXPECT_NEAR(n.dot(f.project(v, beyond).point - f.mesh.positions[v]), 0, 1e-12);
     }
   }
 }
