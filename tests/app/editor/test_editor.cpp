@@ -132,7 +132,8 @@ TEST_F(EditorTest, StatesLookAsAccepted) {
   EXPECT_TRUE(test::matches_baseline(editor.picture(), "editor_welcome"));
   open(folder.make_square());
   const test::ImageLimits limits;
-  EXPECT_FALSE(test::compare_images(editor.picture(), test::read_baseline("editor_after_run"), limits).within(limits))
+  EXPECT_FALSE(
+      test::compare_images(editor.picture(), test::read_baseline("editor_after_run"), limits).within(limits))
       << "a run must be seen";
   editor.session().smoothing.iterations = 30;
   editor.session().smoothing.tolerance = 0;
