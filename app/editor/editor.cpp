@@ -59,8 +59,7 @@ void Editor::frame(const FrameOptions& options) {
   drawing += seconds_since(before_mesh);
 
   ui::ViewportImage image;
-  if (has_picture_)
-    image.texture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(renderer_.color_texture()));
+  if (has_picture_) image.texture = texture_id(renderer_.color_texture());
   carry_out(interface_.frame(
       session_,
       {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));

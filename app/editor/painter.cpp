@@ -28,6 +28,7 @@ GLuint compile(GLenum kind, std::string_view source, const char* name) {
 }
 
 const void* offset(std::size_t bytes) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface of OpenGL
   return reinterpret_cast<const void*>(bytes);
 }
 
@@ -104,7 +105,7 @@ void Painter::resize(render::PictureSize size) {
 
 void Painter::upload_atlas(ui::Interface& interface) {
   const auto atlas = interface.atlas();
-  interface.set_atlas_texture(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(atlas_)));
+  interface.set_atlas_texture(texture_id(atlas_));
   if (atlas.revision == atlas_revision_) return;
   atlas_revision_ = atlas.revision;
   glBindTexture(GL_TEXTURE_2D, atlas_);

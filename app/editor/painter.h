@@ -9,6 +9,12 @@
 
 namespace isorelax::editor {
 
+/// How a texture travels through Dear ImGui.
+inline ImTextureID texture_id(unsigned texture) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface of Dear ImGui
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
 /// Draws the interface into a framebuffer of its own with OpenGL 3.3 core: the same pixels in a window and
 /// without one. Needs the context that was current at construction.
 class Painter {

@@ -95,9 +95,9 @@ render::Scene ViewScene::make(const model::Session& session, float pixels_per_po
 render::Camera look_at_triangle(const render::Camera& camera, const model::Session& session, Index triangle) {
   const auto x = session.current->positions();
   const Triangle& t = session.document->mesh().triangles[triangle];
-  const Vec3 a = x[t[0]];
-  const Vec3 b = x[t[1]];
-  const Vec3 c = x[t[2]];
+  const Vec3& a = x[t[0]];
+  const Vec3& b = x[t[1]];
+  const Vec3& c = x[t[2]];
   render::Camera result = camera;
   result.target = (a + b + c) / 3;
   const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});

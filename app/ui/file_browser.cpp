@@ -87,7 +87,8 @@ std::string_view title(FilePurpose purpose) {
   return "Choose a reference mesh";
 }
 
-void deliver(const Ui& ui, fs::path path) {  // by value: it may be the one that is cleared here
+// `path` must not be the browser's own: that one is cleared here.
+void deliver(const Ui& ui, const fs::path& path) {
   FileBrowser& browser = ui.state.browser;
   browser.overwrite.clear();
   ImGui::CloseCurrentPopup();
@@ -147,7 +148,9 @@ void accept(const Ui& ui) {
 
 void place_button(const Ui& ui, std::string_view name, std::string_view label, const fs::path& folder) {
   if (folder.empty()) return;
-  if (button(ui, name, label, {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x, .align = ButtonAlign::left}))
+  if (button(
+          ui, name, label,
+          {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x, .align = ButtonAlign::left}))
     enter(ui.state.browser, folder);
 }
 
@@ -166,7 +169,9 @@ void draw_places(const Ui& ui, float width, float height) {
   for (std::size_t k = 0; k < std::min<std::size_t>(ui.session.recent.size(), 6); ++k) {
     const fs::path& path = ui.session.recent[k];
     if (button(ui, "browser-recent/" + std::to_string(k), path.filename().string(),
-               {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x, .align = ButtonAlign::left})) {
+               {.look = ButtonLook::quiet,
+                .width = ImGui::GetContentRegionAvail().x,
+                .align = ButtonAlign::left})) {
       enter(ui.state.browser, path.parent_path());
       ui.state.browser.name = path.filename().string();
     }
@@ -243,7 +248,7 @@ void browse_by_keyboard(const Ui& ui) {
     enter(browser, browser.folder.parent_path());
   if (!ImGui::IsKeyPressed(static_cast<int>(Key::enter), false)) return;
   if (!browser.overwrite.empty())
-    deliver(ui, browser.overwrite);
+    deliver(ui, fs::path(browser.overwrite));
   else if (browser.selected >= 0 && browser.entries[static_cast<std::size_t>(browser.selected)].folder)
     open_entry(ui, browser.selected);
   else
@@ -291,7 +296,7 @@ void draw_answers(const Ui& ui) {
   const std::string_view label = asks ? "Replace" : saves(browser.purpose) ? "Save" : "Open";
   if (button(ui, "browser-accept", label, {.look = ButtonLook::accent, .width = ui.px(98)})) {
     if (asks)
-      deliver(ui, browser.overwrite);
+      deliver(ui, fs::path(browser.overwrite));
     else
       accept(ui);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "ui/widgets.h"
 
@@ -58,12 +59,12 @@ Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::GetWindowDrawList()->AddText(ui.fonts.heading, line, low, color::kTextDim, title.c_str());
   float x = low.x + width;
-  for (auto entry = key.rbegin(); entry != key.rend(); ++entry) {
-    x -= small_width(ui, entry->label);
-    small_text(ui, {x, low.y}, color::kTextDim, std::string(entry->label));
+  for (const KeyEntry& entry : std::views::reverse(key)) {
+    x -= small_width(ui, entry.label);
+    small_text(ui, {x, low.y}, color::kTextDim, std::string(entry.label));
     x -= ui.px(14);
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        {x, low.y + 0.5F * line - ui.px(1)}, {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry->color);
+    ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + 0.5F * line - ui.px(1)},
+                                              {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry.color);
     x -= ui.px(10);
   }
   const std::string id = "##plot-" + name;
