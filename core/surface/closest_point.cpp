@@ -9,7 +9,7 @@
 namespace isorelax {
 namespace {
 
-constexpr std::size_t kLeafSize = 4;
+constexpr std::size_t kLeafSize = 2;
 /// Median splits halve the count: 2^32 triangles are 32 levels.
 constexpr std::size_t kMaxDepth = 40;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
