@@ -8,7 +8,10 @@
 namespace isorelax {
 namespace {
 
-/// Going to the root itself would make triangles without area.
+/// A triangle limits when it would fold before kReach times the way. It is then cut back to kSafety of the
+/// way to the fold, clearly inside, so that rounding does not decide whether it limits again in the next
+/// round.
+constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
 
@@ -17,9 +20,9 @@ struct AreaAlongMove {
   double c, b, q;
 };
 
-/// Whether the polynomial may have a root in (0, 1 / safety]: false is certain, and the common case.
-bool may_fold(const AreaAlongMove& p, double safety) {
-  return !(p.c + std::min(p.b, 0.0) / safety + std::min(p.q, 0.0) / (safety * safety) > 0);
+/// Whether the polynomial may have a root in (0, kReach]: false is certain, and the common case.
+bool may_fold(const AreaAlongMove& p) {
+  return !(p.c + std::min(p.b, 0.0) * kReach + std::min(p.q, 0.0) * (kReach * kReach) > 0);
 }
 
 /// First root in (0, infinity), c > 0; infinity if there is none.
@@ -32,8 +35,10 @@ double first_positive_root(const AreaAlongMove& p) {
   return denominator > 0 ? 2 * p.c / denominator : INFINITY;
 }
 
-double share(const AreaAlongMove& p, double safety) {
-  return std::min(1.0, safety * first_positive_root(p));
+double share(const AreaAlongMove& p) {
+  if (!may_fold(p)) return 1;
+  const double root = first_positive_root(p);
+  return root < kReach ? kSafety * root : 1;
 }
 
 struct AreaBatch {
@@ -57,7 +62,7 @@ void area_along_move(const EdgeBatch& x, const EdgeBatch& y, AreaBatch& out) {
 
 }  // namespace
 
-double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y, double safety) {
+double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y) {
   const Vec3 t1 = x[1] - x[0];
   const Vec3 t2 = x[2] - x[0];
   const Vec3 d1 = y[1] - y[0] - t1;
@@ -65,7 +70,7 @@ double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& 
   const Vec3 normal = t1.cross(t2);
   const AreaAlongMove p{normal.squaredNorm(), (d1.cross(t2) + t1.cross(d2)).dot(normal),
                         d1.cross(d2).dot(normal)};
-  return may_fold(p, safety) ? share(p, safety) : 1;
+  return share(p);
 }
 
 FoldControl::FoldControl(const SmoothingProblem& problem)
@@ -81,9 +86,8 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
   for (unsigned i = 0; i < ids.count; ++i) {
     const Index t = ids.at[i];
     const AreaAlongMove p{areas.c.at[i], areas.b.at[i], areas.q.at[i]};
-    if (!may_fold(p, kSafety) || problem_.treated[t] == 0) continue;
-    const double limit = share(p, kSafety);
-    if (!(limit < 1)) continue;
+    const double limit = share(p);
+    if (!(limit < 1) || problem_.treated[t] == 0) continue;
     for (const Index v : problem_.triangles[t]) cuts.push_back({v, limit});
   }
 }

@@ -9,11 +9,10 @@
 
 namespace isorelax {
 
-/// Largest share a in [0, 1] of the way from triangle x to triangle y that keeps it safely on its side: along
-/// x + a (y - x) the signed area over the old normal is c + b a + q a^2 with c = N.N; the share is `safety`
-/// times the first positive root, or 1 where that is 1 or more (paper Sec. 3; method Sec. 5). Precondition: x
-/// has area, 0 < safety < 1.
-double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y, double safety);
+/// Share a in (0, 1] of the way from triangle x to triangle y that keeps it safely on its side. Along x + a
+/// (y - x) the signed area over the old normal is c + b a + q a^2 with c = N.N (paper Sec. 3; method Sec. 5):
+/// 0.6 of the first positive root where that is below 1.25, else 1. Precondition: x has area.
+double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
 /// The paper's asynchronous step-size control: scales each vertex' move by the smallest share of its
 /// triangles and repeats with the scaled moves until no triangle limits. After a bounded number of rounds

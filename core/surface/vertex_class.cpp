@@ -27,7 +27,12 @@ class Classifier {
  public:
   Classifier(std::span<const Vec3> positions, std::span<const Triangle> triangles, const Topology& topology,
              const FeatureOptions& options, VertexClasses& result)
-      : x_(positions), triangles_(triangles), topology_(topology), options_(options), r_(result) {}
+      : x_(positions),
+        triangles_(triangles),
+        topology_(topology),
+        options_(options),
+        r_(result),
+        lines_(positions.size(), 0) {}
 
   /// First pass: all that one vertex's own triangles tell.
   void measure(Index v) {
@@ -47,18 +52,21 @@ class Classifier {
     r_.angle_defect_deg[v] = (topology_.is_boundary(v) ? 180.0 : 360.0) - angles;
   }
 
-  /// Second pass: lines through the vertex, which need the neighbours' measurements.
+  /// Second pass: the lines through the vertex, which need the neighbours' measurements.
+  void trace_lines(Index v) {
+    const auto ends = topology_.is_boundary(v) ? border_neighbours(v) : crease_neighbours(v);
+    lines_[v] = static_cast<std::uint8_t>(std::min<std::size_t>(ends.size(), 255));
+    if (ends.size() == 2) r_.turn_deg[v] = 180 - angle_between(x_[ends[0]] - x_[v], x_[ends[1]] - x_[v]);
+  }
+
+  /// Third pass: needs the neighbours' lines.
   void classify(Index v) {
-    const auto line_ends = topology_.is_boundary(v) ? border_neighbours(v) : crease_neighbours(v);
-    if (line_ends.size() == 2) {
-      r_.turn_deg[v] = 180 - angle_between(x_[line_ends[0]] - x_[v], x_[line_ends[1]] - x_[v]);
-    }
     if (topology_.flags(v) & kIsolatedVertex) {
       set(v, VertexClass::corner, 180);
     } else if (topology_.is_boundary(v)) {
-      classify_boundary(v, line_ends.size());
+      classify_boundary(v);
     } else {
-      classify_interior(v, line_ends.size());
+      classify_interior(v);
     }
   }
 
@@ -68,26 +76,44 @@ class Classifier {
     r_.margin_deg[v] = margin;
   }
 
-  void classify_boundary(Index v, std::size_t lines) {
-    const bool creased = !crease_neighbours(v).empty();
+  void classify_boundary(Index v) {
     const double over = r_.turn_deg[v] - options_.turn_deg;
-    if (lines != 2 || creased) return set(v, VertexClass::corner, 180);
+    if (lines_[v] != 2 || !crease_neighbours(v).empty()) return set(v, VertexClass::corner, 180);
     set(v, over > 0 ? VertexClass::corner : VertexClass::boundary, std::abs(over));
   }
 
-  void classify_interior(Index v, std::size_t creases) {
+  /// How far an inner vertex is over the nearest of the corner's thresholds, degrees; negative: under all of
+  /// them.
+  [[nodiscard]] double over_corner(Index v) const {
     const double defect = std::abs(r_.angle_defect_deg[v]) - options_.corner_defect_deg;
-    if (defect >= 0) return set(v, VertexClass::corner, defect);
-    const double spread_over = r_.spread_deg[v] - options_.ridge_angle_deg;
-    const double sharp_over = has_sharp_edge(v) ? r_.sharpest_edge_deg[v] - options_.sharp_edge_deg : -180;
-    if (spread_over < 0 && sharp_over <= 0)
-      return set(v, VertexClass::smooth, std::min(-spread_over, -defect));
     const double third = spread(r_.eigenvalues[v][2], r_.eigenvalues[v][0]) - options_.ridge_angle_deg;
-    if (third >= 0) return set(v, VertexClass::corner, third);
-    if (creases >= 3) return set(v, VertexClass::corner, std::max(spread_over, sharp_over));
-    const double turn = r_.turn_deg[v] - options_.turn_deg;
-    if (creases == 2 && turn > 0) return set(v, VertexClass::corner, turn);
-    set(v, VertexClass::ridge, std::min({std::max(spread_over, sharp_over), -defect, -third}));
+    double over = std::max(defect, third);
+    if (lines_[v] >= 3) over = std::max(over, over_ridge(v));
+    if (lines_[v] == 2 && over_ridge(v) >= 0) over = std::max(over, r_.turn_deg[v] - options_.turn_deg);
+    return over;
+  }
+
+  /// How far it is over the ridge's thresholds.
+  [[nodiscard]] double over_ridge(Index v) const {
+    const double spread_over = r_.spread_deg[v] - options_.ridge_angle_deg;
+    return has_sharp_edge(v) ? std::max(spread_over, r_.sharpest_edge_deg[v] - options_.sharp_edge_deg)
+                             : spread_over;
+  }
+
+  /// A ridge is a line: two crease edges, or one that continues in a line beyond its other end. Normals that
+  /// spread without such a line are those of a strongly curved but smooth place.
+  [[nodiscard]] bool is_on_line(Index v) const {
+    if (lines_[v] >= 2 || has_sharp_edge(v)) return true;
+    const auto ends = crease_neighbours(v);
+    return ends.size() == 1 && lines_[ends[0]] >= 2 && over_corner(ends[0]) < 0;
+  }
+
+  void classify_interior(Index v) {
+    const double corner = over_corner(v);
+    const double ridge = over_ridge(v);
+    if (corner >= 0) return set(v, VertexClass::corner, corner);
+    if (ridge >= 0 && is_on_line(v)) return set(v, VertexClass::ridge, std::min(ridge, -corner));
+    set(v, VertexClass::smooth, std::min(std::abs(ridge), -corner));
   }
 
   [[nodiscard]] double turn_across(Corner corner) const {
@@ -127,6 +153,7 @@ class Classifier {
   const Topology& topology_;
   const FeatureOptions& options_;
   VertexClasses& r_;
+  std::vector<std::uint8_t> lines_;  // crease edges at an inner vertex, border edges at a boundary vertex
 };
 
 }  // namespace
@@ -156,12 +183,14 @@ VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const
     values->assign(n, 0);
   }
   Classifier classifier(positions, triangles, topology, options, result);
-  parallel_for_blocks(n, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) classifier.measure(static_cast<Index>(v));
-  });
-  parallel_for_blocks(n, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) classifier.classify(static_cast<Index>(v));
-  });
+  const auto for_all = [&](auto pass) {
+    parallel_for_blocks(n, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) (classifier.*pass)(static_cast<Index>(v));
+    });
+  };
+  for_all(&Classifier::measure);
+  for_all(&Classifier::trace_lines);
+  for_all(&Classifier::classify);
   return result;
 }
 

@@ -51,11 +51,13 @@ struct VertexClasses {
 
 /// Classifies every vertex (paper Sec. 3, method Sec. 4). A vertex in no triangle is a corner.
 ///
-/// Boundary vertices are `boundary`, or `corner` where the border turns by more than turn_deg, where a ridge
-/// runs into it, or where several borders meet. Elsewhere: a corner where the angles miss 2 pi by
-/// corner_defect_deg, where the third eigenvalue spreads like a crease too, where three or more creases meet,
-/// where one ends, or where it turns by more than turn_deg; otherwise a ridge where the spread reaches
-/// ridge_angle_deg or an edge is sharp; else smooth.
+/// A crease edge turns by ridge_angle_deg between two vertices whose normals spread that much, or by more
+/// than sharp_edge_deg where both spread at least half as much: a sliver's normal alone, whose area carries
+/// no weight, makes no crease. Boundary vertices are `boundary`, or `corner` where the border turns by more
+/// than turn_deg, where a crease runs into it, or where several borders meet. Elsewhere: a corner where the
+/// angles miss 2 pi by corner_defect_deg, where the third eigenvalue spreads like a crease too, where three
+/// or more creases meet, or where one turns by more than turn_deg; a ridge where the spread reaches
+/// ridge_angle_deg or an edge is sharp, and two crease edges meet or one continues a line; else smooth.
 VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const FeatureOptions& options,
                                 unsigned threads = 0);
