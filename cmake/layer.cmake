@@ -4,8 +4,7 @@
 
 add_library(isorelax_build_flags INTERFACE)
 target_compile_options(isorelax_build_flags INTERFACE
-  # Designated initialisers leave the rest at its default on purpose.
-  -Wall -Wextra -Wno-missing-field-initializers -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
   # Results are compared bit for bit between builds and thread counts: no contraction into fused operations.
   -ffp-contract=off
   # g++ 12 sees an overlap in "text" + std::string that is not there (GCC bug 105651).

@@ -64,15 +64,17 @@ Lattice choose_lattice(std::size_t triangles) {
   const double equilateral = 2 / std::sqrt(3.0);
   const auto middle = static_cast<long>(std::lround(std::sqrt(wanted / (2 * equilateral))));
   Lattice best;
-  double best_error = wanted;
+  double best_cost = wanted;
   for (long columns = std::max(1L, middle - 3); columns <= middle + 3; ++columns) {
     const double per_strip = 2.0 * static_cast<double>(columns) + 1;
     const auto strips = std::max(1L, std::lround(wanted / per_strip));
     const double stretch = static_cast<double>(strips) / (equilateral * static_cast<double>(columns));
-    const double error = std::abs(static_cast<double>(strips) * per_strip - wanted);
-    if (error < best_error && (stretch > 0.9 && stretch < 1.1)) {
+    // A lattice of the right size that is stretched by more than a tenth is worse than one of another size.
+    const double miss = std::abs(static_cast<double>(strips) * per_strip - wanted) / wanted;
+    const double cost = miss + 10 * std::max(0.0, std::abs(std::log(stretch)) - std::log(1.1));
+    if (cost < best_cost) {
       best = {static_cast<std::size_t>(columns), static_cast<std::size_t>(strips)};
-      best_error = error;
+      best_cost = cost;
     }
   }
   return best;
