@@ -13,6 +13,7 @@
 #include "mesh/error.h"
 #include "quality/report.h"
 #include "smoothing/run.h"
+#include "surface/deviation.h"
 
 namespace isorelax::cli {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 struct Outcome {
   QualityReport before, after;
   RunResult run;
+  Deviation deviation;
   std::array<std::size_t, 8> limits{};
   std::vector<std::string> notes;
 };
@@ -38,6 +40,10 @@ Json to_json(const Outcome& outcome) {
   object["seconds"] = outcome.run.seconds;
   object["energy_before"] = outcome.run.before.energy;
   object["energy_after"] = outcome.run.after.energy;
+  object["deviation"] = {{"max", outcome.deviation.max},
+                         {"rms", outcome.deviation.rms},
+                         {"volume_change", outcome.deviation.volume_change},
+                         {"normal_change_deg", outcome.deviation.normal_change_deg}};
   object["gradient_ratio"] = outcome.run.gradient_ratio;
   object["relative_energy_change"] = outcome.run.energy_change;
   object["relative_move"] = outcome.run.relative_move;
@@ -115,6 +121,11 @@ class SmoothCommand : public Command {
     for (const std::string& message : write_mesh(output_, mesh)) console.message(output_ + ": " + message);
     if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
     console.message(cli::summary(outcome));
+    console.message("distance from the input surface " + number_text(outcome.deviation.max) + " at most, " +
+                    number_text(outcome.deviation.rms) + " RMS (of the bounding-box diagonal)" +
+                    (outcome.deviation.has_volume
+                         ? ", volume change " + number_text(100 * outcome.deviation.volume_change) + " %"
+                         : ""));
     console.message("stopped after " + std::to_string(outcome.run.iterations) +
                     " iterations: " + std::string(to_string(outcome.run.stopped)));
     return kDone;
@@ -135,6 +146,7 @@ class SmoothCommand : public Command {
     const SmoothingProblem problem = freeze(mesh, parse_problem(console, problem_));
     outcome.notes = problem.notes;
     outcome.before = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
+    const std::vector<Vec3> original = mesh.positions;
     const auto smoother = make_jacobi(problem, jacobi_);
     {
       Progress progress(console, "smoothing");
@@ -146,6 +158,8 @@ class SmoothCommand : public Command {
                                     return true;
                                   });
     }
+    outcome.deviation =
+        measure_deviation(original, mesh.positions, mesh.triangles, problem.topology, problem.threads);
     outcome.after = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
     return outcome;
   }

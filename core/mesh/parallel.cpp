@@ -1,5 +1,6 @@
 #include "mesh/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -17,7 +18,9 @@ void parallel_for_blocks(std::size_t count, unsigned threads,
     for (std::size_t block = 0; block < blocks; ++block) run_block(block);
     return;
   }
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  // More threads than processors gain nothing, and TBB would complain on standard error.
+  const int available = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads == 0 ? available : std::min(available, static_cast<int>(threads)));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run_block); });
 }
 

@@ -33,6 +33,7 @@ std::vector<FeatureEdge> crease_edges(std::span<const Vec3> positions, std::span
     if (topology.opposite(c) == kNone || topology.opposite(c) < c) continue;
     const Index v = triangles[c / 3][next(c % 3)];
     const Index w = triangles[c / 3][previous(c % 3)];
+    if (classes.classes[v] == VertexClass::smooth || classes.classes[w] == VertexClass::smooth) continue;
     const std::array<double, 2> spread = {classes.spread_deg[v], classes.spread_deg[w]};
     // No smaller angle makes a crease: most edges are done without one.
     if (std::min(spread[0], spread[1]) < 0.5 * options.ridge_angle_deg) continue;
