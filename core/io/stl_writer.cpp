@@ -183,7 +183,7 @@ EncodedMesh encode_stl(const TriangleMesh& mesh, FileEncoding encoding) {
     return p.cwiseAbs().maxCoeff() > static_cast<double>(std::numeric_limits<float>::max());
   });
   if (too_large) {
-    throw OutputError(
+    throw MeshError(
         "a coordinate is too large for binary STL, which has single precision; text STL holds it");
   }
   return encode_binary(mesh);

@@ -35,9 +35,13 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Tri
   if (text_only && encoding != FileEncoding::text) {
     throw UsageError(std::string(format_name(*format)) + " has no binary form here");
   }
-  EncodedMesh file = encode(mesh, *format, encoding);
-  write_file_atomically(path, file.bytes);
-  return std::move(file.messages);
+  try {
+    EncodedMesh file = encode(mesh, *format, encoding);
+    write_file_atomically(path, file.bytes);
+    return std::move(file.messages);
+  } catch (const MeshError& error) {  // the mesh is sound; this format cannot hold it
+    throw OutputError(one_line(path.string()), error.what());
+  }
 }
 
 }  // namespace isorelax

@@ -36,7 +36,7 @@ class Classifier {
 
   /// First pass: all that one vertex's own triangles tell.
   void measure(Index v) {
-    const CovarianceEigen eigen = decompose(normal_covariance(x_, triangles_, topology_, v));
+    const CovarianceEigen eigen = decompose(spread_of_normals(v));
     r_.eigenvalues[v] = eigen.values;
     r_.spread_deg[v] = spread(eigen.values[1], eigen.values[0]);
     double angles = 0;
@@ -50,6 +50,24 @@ class Classifier {
     }
     r_.sharpest_edge_deg[v] = sharpest;
     r_.angle_defect_deg[v] = (topology_.is_boundary(v) ? 180.0 : 360.0) - angles;
+  }
+
+  /// Covariance of the normals around a vertex, each weighted with the sine of its triangle's angle there:
+  /// the area it would have with edges of length one. A long face does not outweigh a short one, and a sliver
+  /// counts for little.
+  [[nodiscard]] SymmetricMatrix spread_of_normals(Index v) const {
+    SymmetricMatrix sum;
+    for (const Corner c : topology_.corners_of(v)) {
+      const Triangle& t = triangles_[c / 3];
+      const Vec3 a = x_[t[next(c % 3)]] - x_[v];
+      const Vec3 b = x_[t[previous(c % 3)]] - x_[v];
+      const Vec3 n = a.cross(b);
+      const double weight = n.norm() * a.norm() * b.norm();
+      if (!(weight > 0)) continue;
+      const Vec3 weighted = n / std::sqrt(weight);
+      sum.add_outer(weighted.x(), weighted.y(), weighted.z());
+    }
+    return sum;
   }
 
   /// Second pass: the lines through the vertex, which need the neighbours' measurements.
