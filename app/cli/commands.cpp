@@ -7,6 +7,7 @@ std::unique_ptr<Command> make_quality_command();
 std::unique_ptr<Command> make_smooth_command();
 std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_generate_command();
+std::unique_ptr<Command> make_benchmark_command();
 std::unique_ptr<Command> make_view_command();
 
 std::vector<std::unique_ptr<Command>> all_commands() {
@@ -16,6 +17,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(make_smooth_command());
   commands.push_back(make_render_command());
   commands.push_back(make_generate_command());
+  commands.push_back(make_benchmark_command());
   commands.push_back(make_view_command());
   return commands;
 }

@@ -36,6 +36,12 @@ BoundaryRule parse_boundary(const std::string& text) {
   throw UsageError("--boundary " + text + ": expected fixed, slide or free");
 }
 
+SurfaceRule parse_surface(const std::string& text) {
+  if (text == "tangent") return SurfaceRule::tangent;
+  if (text == "project") return SurfaceRule::project;
+  throw UsageError("--surface " + text + ": expected tangent or project");
+}
+
 /// Vertex numbers from 0, separated by white space or commas; # starts a comment.
 std::vector<Index> read_pins(const std::string& path) {
   std::ifstream file(path);
@@ -83,6 +89,9 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--features", spec.features,
                  "Ridges and corners to keep: auto (default), none, or the ridge angle in degrees")
       ->type_name("F");
+  app.add_option("--surface", spec.surface,
+                 "project (default): slide on the surface as it was; tangent: move in tangent planes only")
+      ->type_name("RULE");
   app.add_option("--pin", spec.pin_file, "File of vertex numbers (from 0) that must not move")
       ->type_name("FILE");
   app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")
@@ -121,6 +130,7 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec) {
   options.exponent = spec.exponent;
   options.boundary = parse_boundary(spec.boundary);
   options.features = parse_features(spec.features);
+  options.surface = parse_surface(spec.surface);
   options.reference = parse_reference(console, spec.reference);
   if (!spec.pin_file.empty()) options.pinned = read_pins(spec.pin_file);
   options.threads = spec.threads;

@@ -20,6 +20,7 @@ struct ProblemSpec {
   std::string reference = "equilateral";
   std::string boundary = "fixed";
   std::string features = "auto";
+  std::string surface = "project";
   std::string pin_file;
   unsigned threads = 0;
 };

@@ -12,19 +12,14 @@
 #include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "quality/report.h"
-#include "smoothing/run.h"
-#include "surface/deviation.h"
+#include "smoothing/bounded_run.h"
 
 namespace isorelax::cli {
 namespace {
 
-/// What one smoothing run did, for the report and the summary.
-struct Outcome {
+/// What smoothing did, for the report and the summary.
+struct Outcome : BoundedResult {
   QualityReport before, after;
-  RunResult run;
-  Deviation deviation;
-  std::array<std::size_t, 8> limits{};
-  std::vector<std::string> notes;
 };
 
 constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
@@ -107,6 +102,11 @@ class SmoothCommand : public Command {
     app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
         ->type_name("T")
         ->check(CLI::NonNegativeNumber);
+    app.add_option(
+           "--max-deviation", limit_.max,
+           "Largest distance from the input surface, of its bounding-box diagonal (default 0.005; inf: any)")
+        ->type_name("D")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }
@@ -132,35 +132,28 @@ class SmoothCommand : public Command {
   }
 
  private:
-  /// Errors about the mesh get the name of its file.
-  [[nodiscard]] SmoothingProblem freeze(const TriangleMesh& mesh, const ProblemOptions& options) const {
+  Outcome smooth(Console& console, TriangleMesh& mesh) const {
+    const ProblemOptions options = parse_problem(console, problem_);
+    const Topology topology(mesh.triangles, mesh.vertex_count());
+    const auto measure = [&] {
+      return measure_quality(mesh.positions, mesh.triangles, topology, options.threads);
+    };
+    Outcome outcome;
+    outcome.before = measure();
     try {
-      return make_problem(mesh.positions, mesh.triangles, options);
-    } catch (const MeshError& error) {
+      Progress progress(console, "smoothing");
+      const auto show = [&](unsigned iteration, const StepRecord&, std::span<const Vec3>) {
+        progress.update(static_cast<double>(iteration) / run_.iterations,
+                        "iteration " + std::to_string(iteration));
+        return true;
+      };
+      static_cast<BoundedResult&>(outcome) = run_bounded(
+          mesh.positions, mesh.triangles, options,
+          [&](const SmoothingProblem& problem) { return make_jacobi(problem, jacobi_); }, run_, limit_, show);
+    } catch (const MeshError& error) {  // gets the name of its file
       throw MeshError(input_ + ": " + error.what());
     }
-  }
-
-  Outcome smooth(Console& console, TriangleMesh& mesh) const {
-    Outcome outcome;
-    const SmoothingProblem problem = freeze(mesh, parse_problem(console, problem_));
-    outcome.notes = problem.notes;
-    outcome.before = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
-    const std::vector<Vec3> original = mesh.positions;
-    const auto smoother = make_jacobi(problem, jacobi_);
-    {
-      Progress progress(console, "smoothing");
-      outcome.run = isorelax::run(*smoother, problem, mesh.positions, run_,
-                                  [&](unsigned iteration, const StepRecord& record, std::span<const Vec3>) {
-                                    progress.update(static_cast<double>(iteration) / run_.iterations,
-                                                    "iteration " + std::to_string(iteration));
-                                    outcome.limits = count_limits(record);
-                                    return true;
-                                  });
-    }
-    outcome.deviation =
-        measure_deviation(original, mesh.positions, mesh.triangles, problem.topology, problem.threads);
-    outcome.after = measure_quality(mesh.positions, mesh.triangles, problem.topology, problem.threads);
+    outcome.after = measure();
     return outcome;
   }
 
@@ -169,6 +162,7 @@ class SmoothCommand : public Command {
   ProblemSpec problem_;
   JacobiOptions jacobi_;
   RunOptions run_;
+  DeviationLimit limit_;
   bool quiet_ = false;
 };
 

@@ -14,6 +14,9 @@ namespace {
 constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
+/// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
+/// degrees.
+constexpr double kLeastCosine = 0.5;
 
 /// c + b a + q a^2: signed area along the move, over the old normal.
 struct AreaAlongMove {
@@ -86,10 +89,19 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
   for (unsigned i = 0; i < ids.count; ++i) {
     const Index t = ids.at[i];
     const AreaAlongMove p{areas.c.at[i], areas.b.at[i], areas.q.at[i]};
-    const double limit = share(p);
+    double limit = share(p);
+    if (turns_away(trial, t)) limit = std::min(limit, 0.5);
     if (!(limit < 1) || problem_.treated[t] == 0) continue;
     for (const Index v : problem_.triangles[t]) cuts.push_back({v, limit});
   }
+}
+
+bool FoldControl::turns_away(const Trial& trial, Index t) const {
+  if (problem_.initial_normals.empty()) return false;
+  const Triangle& v = problem_.triangles[t];
+  const Vec3 area = area_vector(trial.to()[v[0]], trial.to()[v[1]], trial.to()[v[2]]);
+  const double along = area.dot(problem_.initial_normals[t]);
+  return !(along > 0 && along * along > kLeastCosine * kLeastCosine * area.squaredNorm());
 }
 
 std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {

@@ -14,7 +14,8 @@ namespace isorelax {
 /// 0.6 of the first positive root where that is below 1.25, else 1. Precondition: x has area.
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
-/// The paper's asynchronous step-size control: scales each vertex' move by the smallest share of its
+/// The paper's asynchronous step-size control, which on curved surfaces also keeps every triangle within 60
+/// degrees of its normal at the start of the run: scales each vertex' move by the smallest share of its
 /// triangles and repeats with the scaled moves until no triangle limits. After a bounded number of rounds
 /// what still folds is stopped (its vertices do not move), which always ends. Rounds after the first look
 /// only at triangles whose vertices were scaled.
@@ -35,6 +36,7 @@ class FoldControl {
     double share;
   };
   void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;
+  [[nodiscard]] bool turns_away(const Trial& trial, Index t) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
 

@@ -42,6 +42,7 @@ class ProblemBuilder {
     pin_flaws();
     pin_choice();
     measure_edges();
+    freeze_surface();
   }
 
  private:
@@ -180,6 +181,25 @@ class ProblemBuilder {
       }
       pin(v);
     }
+    for (const Index v : options_.held_near_surface) {
+      p_.mobility[v] = Mobility::none;
+      p_.fixed_limits[v] |= kLimitSurface;
+    }
+    if (options_.held_near_surface.empty()) return;
+    p_.notes.push_back(counted(options_.held_near_surface.size(), "vertex is", "vertices are") +
+                       " held for the largest deviation allowed: " + list_ids(options_.held_near_surface));
+  }
+
+  void freeze_surface() {
+    if (!p_.plane_normal) {
+      p_.initial_normals.resize(p_.triangle_count());
+      for (Index t = 0; t < p_.triangle_count(); ++t) p_.initial_normals[t] = area_of(t).stableNormalized();
+    }
+    // In a plane only vertices that slide along a curved border could leave the surface.
+    const bool can_leave = !p_.plane_normal || !p_.border.empty();
+    if (options_.surface == SurfaceRule::tangent || !can_leave) return;
+    p_.surface = std::make_shared<FrozenSurface>(x_, p_.triangles, p_.topology, options_.features, p_.classes,
+                                                 options_.threads);
   }
 
   void measure_edges() {
@@ -245,6 +265,8 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .treated = {},
                            .border = {},
                            .plane_normal = {},
+                           .surface = {},
+                           .initial_normals = {},
                            .mean_edge_length = 0,
                            .threads = options.threads,
                            .notes = {}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -7,6 +8,7 @@
 
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
+#include "surface/frozen_surface.h"
 #include "surface/vertex_class.h"
 
 namespace isorelax {
@@ -16,6 +18,12 @@ enum class BoundaryRule : std::uint8_t {
   fixed,  ///< nothing
   slide,  ///< move along the border; its corners stay
   free,   ///< move in the tangent plane like any other vertex
+};
+
+/// Where vertices go on a curved surface.
+enum class SurfaceRule : std::uint8_t {
+  tangent,  ///< along their tangent space, which leaves the surface at second order (the paper)
+  project,  ///< along it and back to the surface as it was at the start: closest point, high-order local fits
 };
 
 /// Equilateral references with the mean area of the mesh.
@@ -45,8 +53,11 @@ struct ProblemOptions {
   ReferenceChoice reference = MeanAreaReference{};
   BoundaryRule boundary = BoundaryRule::fixed;
   FeatureOptions features;
+  SurfaceRule surface = SurfaceRule::project;
   /// Vertices that the user holds.
   std::vector<Index> pinned;
+  /// Vertices held because moving them would leave the surface by more than is allowed.
+  std::vector<Index> held_near_surface;
   /// Threads for the set-up and the steps; 0: all the machine has. Results do not depend on it.
   unsigned threads = 0;
 };
@@ -70,6 +81,10 @@ struct SmoothingProblem {
   std::unordered_map<Index, std::array<Index, 2>> border;
   /// The mesh lies in one plane with this unit normal: moves stay in it exactly.
   std::optional<Vec3> plane_normal;
+  /// What vertices are brought back to; none for tangent moves and where there is nothing to leave.
+  std::shared_ptr<const FrozenSurface> surface;
+  /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
+  std::vector<Vec3> initial_normals;
   double mean_edge_length = 0;
   unsigned threads = 0;
   /// What was pinned and left out, in words for the user.

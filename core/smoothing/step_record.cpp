@@ -2,9 +2,9 @@
 
 namespace isorelax {
 
-std::array<std::size_t, 8> count_limits(const StepRecord& record) {
+std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> all) {
   std::array<std::size_t, 8> counts{};
-  for (const std::uint16_t limits : record.limits) {
+  for (const std::uint16_t limits : all) {
     for (unsigned bit = 0; bit < counts.size(); ++bit) counts[bit] += (limits >> bit) & 1U;
   }
   return counts;

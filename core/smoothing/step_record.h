@@ -50,8 +50,8 @@ struct StepRecord {
   std::size_t moved = 0;       ///< vertices that move
 };
 
-/// How many vertices were limited by each bit, in bit order.
-std::array<std::size_t, 8> count_limits(const StepRecord& record);
+/// How many vertices are limited by each bit, in bit order.
+std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> limits);
 
 /// Name of one bit of Limit for people: "pinned", "corner", ...
 std::string_view limit_name(Limit limit);

@@ -6,20 +6,38 @@
 
 namespace isorelax {
 
-void Trial::start(std::span<const Vec3> from, const StepRecord& record) {
+void Trial::start(std::span<const Vec3> from, StepRecord& record) {
   from_ = from;
   to_.resize(from.size());
+  if (problem_.surface) tangent_ = record.displacement;
   parallel_for_blocks(from.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) to_[v] = from[v] + record.alpha[v] * record.displacement[v];
+    for (std::size_t v = begin; v < end; ++v) place(record, static_cast<Index>(v));
   });
   take_touched();
+}
+
+/// Where the accepted share of the move leads, and the displacement that leads there.
+void Trial::place(StepRecord& record, Index vertex) {
+  const double alpha = record.alpha[vertex];
+  if (problem_.surface && alpha > 0 && !tangent_[vertex].isZero(0)) {
+    // The walk starts where the vertex was at the start of the run: the point does not depend on the way
+    // there.
+    const bool on_curve = problem_.mobility[vertex] == Mobility::line;
+    const VertexClass kind = on_curve ? problem_.classes.classes[vertex] : VertexClass::smooth;
+    const Vec3 target =
+        problem_.surface
+            ->project(from_[vertex] + alpha * tangent_[vertex], kind, problem_.surface->anchor(vertex))
+            .point;
+    record.displacement[vertex] = (target - from_[vertex]) / alpha;
+  }
+  to_[vertex] = from_[vertex] + alpha * record.displacement[vertex];
 }
 
 bool Trial::cut(StepRecord& record, Index vertex, double factor, Limit why) {
   if (record.alpha[vertex] == 0 || record.displacement[vertex].isZero(0)) return false;
   record.alpha[vertex] *= factor;
   record.limits[vertex] |= why;
-  to_[vertex] = from_[vertex] + record.alpha[vertex] * record.displacement[vertex];
+  place(record, vertex);
   for (const Corner c : problem_.topology.corners_of(vertex)) {
     const Index t = c / 3;
     if (stamp_[t] == round_) continue;

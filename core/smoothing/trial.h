@@ -15,8 +15,8 @@ class Trial {
   /// Keeps a reference to the problem.
   explicit Trial(const SmoothingProblem& problem) : problem_(problem), stamp_(problem.triangle_count(), 0) {}
 
-  /// Starts from the record's moves.
-  void start(std::span<const Vec3> from, const StepRecord& record);
+  /// Starts from the record's tangent moves, all alphas 1, and bends the displacements to the surface.
+  void start(std::span<const Vec3> from, StepRecord& record);
 
   /// Multiplies a vertex' alpha by `factor`, sets `why` among its limits and moves the trial. No effect, and
   /// false, for a vertex that does not move.
@@ -29,8 +29,11 @@ class Trial {
   std::vector<Index> take_touched();
 
  private:
+  void place(StepRecord& record, Index vertex);
+
   const SmoothingProblem& problem_;
   std::span<const Vec3> from_;
+  std::vector<Vec3> tangent_;  // the moves as proposed
   std::vector<Vec3> to_;
   std::vector<std::uint32_t> stamp_;  // per triangle: round in which it was last noted
   std::uint32_t round_ = 1;

@@ -1,0 +1,168 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/json.h"
+#include "cli/table.h"
+#include "generate/generate.h"
+#include "mesh/error.h"
+#include "mesh/halfedge_mesh.h"
+#include "smoothing/run.h"
+
+namespace isorelax::cli {
+namespace {
+
+/// Nanoseconds per triangle of one step, on one mesh.
+struct SpeedRow {
+  std::string mesh;
+  std::size_t triangles = 0;
+  double jacobi_one_thread = 0;
+  double jacobi_all_threads = 0;
+  double openmesh_laplace = 0;
+};
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+/// The three opponents in turn, round by round, so that a change of the machine's speed meets them all. What
+/// is compared is the median round.
+SpeedRow measure_speed(const std::string& name, const TriangleMesh& mesh, unsigned rounds) {
+  // Frozen once: only the steps are timed. Tangent moves are what the paper's step and the Laplace smoother
+  // share.
+  ProblemOptions options;
+  options.surface = SurfaceRule::tangent;
+  options.threads = 1;
+  const SmoothingProblem one = make_problem(mesh.positions, mesh.triangles, options);
+  options.threads = 0;
+  const SmoothingProblem all = make_problem(mesh.positions, mesh.triangles, options);
+  const auto smoother_one = make_jacobi(one);
+  const auto smoother_all = make_jacobi(all);
+  HalfedgeMesh halfedges(mesh);
+  std::vector<Vec3> x_one = mesh.positions;
+  std::vector<Vec3> x_all = mesh.positions;
+  StepRecord record;
+  const auto step = [&](Smoother& smoother, std::vector<Vec3>& x) {
+    smoother.step(x, record);
+    apply_step(record, x);
+  };
+  std::vector<double> times_one, times_all, times_laplace;
+  for (unsigned round = 0; round <= rounds; ++round) {
+    const double t1 = seconds_of([&] { step(*smoother_one, x_one); });
+    const double t2 = seconds_of([&] { step(*smoother_all, x_all); });
+    const double t3 = seconds_of([&] { halfedges.smooth_laplace(1); });
+    if (round == 0) continue;  // pages are touched for the first time
+    times_one.push_back(t1);
+    times_all.push_back(t2);
+    times_laplace.push_back(t3);
+  }
+  const double scale = 1e9 / static_cast<double>(mesh.triangles.size());
+  return {name, mesh.triangles.size(), scale * median(times_one), scale * median(times_all),
+          scale * median(times_laplace)};
+}
+
+TriangleMesh shaken(ShapeKind kind, std::size_t triangles) {
+  GenerateOptions options;
+  options.triangles = triangles;
+  options.jitter = 0.3;
+  return generate(kind, options);
+}
+
+class BenchmarkCommand : public Command {
+ public:
+  [[nodiscard]] std::string name() const override { return "benchmark"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Measure the smoother beside others in the same run";
+  }
+  [[nodiscard]] std::string notes() const override {
+    return "speed   Nanoseconds per triangle of one Jacobi step (direction, fold control and energy guard "
+           "included), on\n"
+           "        one thread and on all, beside one step of OpenMesh's Laplace smoother (tangential, C0) "
+           "on the same\n"
+           "        mesh: a plane with shaken vertices and a shaken torus, in natural order. The three take "
+           "turns;\n"
+           "        each figure is the median of --rounds steps.\n"
+           "\n"
+           "Example:\n"
+           "  isorelax benchmark speed --triangles 10000 100000 1000000";
+  }
+  void declare(CLI::App& app) override {
+    app.add_option("WHAT", what_, "speed")->required();
+    app.add_option("--triangles", sizes_, "Sizes of the meshes (default 10000 100000 1000000)")
+        ->type_name("N...");
+    app.add_option("--rounds", rounds_, "Steps that are timed (default 15)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    app.add_flag("--json", json_, "Print one JSON object");
+    app.add_flag("--quiet", quiet_, "Print nothing but errors and results");
+  }
+  int run(Console& console) override {
+    if (quiet_) console.set_verbosity(Verbosity::quiet);
+    if (what_ != "speed") throw UsageError("benchmark " + what_ + ": expected speed");
+    std::vector<SpeedRow> rows;
+    {
+      Progress progress(console, "benchmark");
+      double done = 0;
+      for (const auto& [kind, name] :
+           {std::pair{ShapeKind::hexagonal_square, "plane"}, std::pair{ShapeKind::torus, "torus"}}) {
+        for (const std::size_t size : sizes_) {
+          progress.update(done++ / (2.0 * static_cast<double>(sizes_.size())),
+                          std::string(name) + " " + std::to_string(size));
+          rows.push_back(measure_speed(name, shaken(kind, size), rounds_));
+        }
+      }
+    }
+    console.result(json_ ? json_text(object(rows)) : text(rows));
+    return kDone;
+  }
+
+ private:
+  static Json object(const std::vector<SpeedRow>& rows) {
+    Json list = Json::array();
+    for (const SpeedRow& row : rows) {
+      list.push_back({{"mesh", row.mesh},
+                      {"triangles", row.triangles},
+                      {"jacobi_one_thread_ns", row.jacobi_one_thread},
+                      {"jacobi_all_threads_ns", row.jacobi_all_threads},
+                      {"openmesh_laplace_ns", row.openmesh_laplace}});
+    }
+    return {{"unit", "nanoseconds per triangle and step"}, {"rows", std::move(list)}};
+  }
+
+  static std::string text(const std::vector<SpeedRow>& rows) {
+    std::string text =
+        "ns per triangle and step    Jacobi, 1 thread   Jacobi, all threads   OpenMesh Laplace\n";
+    for (const SpeedRow& row : rows) {
+      char line[120];
+      std::snprintf(line, sizeof line, "%-6s %10zu triangles %16.1f %21.1f %18.1f\n", row.mesh.c_str(),
+                    row.triangles, row.jacobi_one_thread, row.jacobi_all_threads, row.openmesh_laplace);
+      text += line;
+    }
+    return text;
+  }
+
+  std::string what_;
+  std::vector<std::size_t> sizes_ = {10000, 100000, 1000000};
+  unsigned rounds_ = 15;
+  bool json_ = false;
+  bool quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_benchmark_command() {
+  return std::make_unique<BenchmarkCommand>();
+}
+
+}  // namespace isorelax::cli

@@ -1,0 +1,73 @@
+#include "smoothing/bounded_run.h"
+
+#include <algorithm>
+
+namespace isorelax {
+namespace {
+
+/// Vertices of the triangles over the limit, sorted.
+std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span<const Triangle> triangles,
+                                 double limit) {
+  std::vector<Index> vertices;
+  for (Index t = 0; t < triangles.size(); ++t) {
+    if (deviation.largest[t] > limit)
+      vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Adds the neighbours of all held vertices: how the held region grows when holding the triangles alone was
+/// in vain.
+void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::size_t vertex_count) {
+  std::vector<std::uint8_t> inside(vertex_count, 0);
+  for (const Index v : held) inside[v] = 1;
+  held.clear();
+  std::vector<std::uint8_t> grown = inside;
+  for (const Triangle& t : triangles) {
+    if (inside[t[0]] + inside[t[1]] + inside[t[2]] == 0) continue;
+    for (const Index v : t) grown[v] = 1;
+  }
+  for (Index v = 0; v < vertex_count; ++v) {
+    if (grown[v] != 0) held.push_back(v);
+  }
+}
+
+}  // namespace
+
+BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
+                          const RunOptions& run_options, const DeviationLimit& limit,
+                          const StepObserver& observer) {
+  const std::vector<Vec3> original(positions.begin(), positions.end());
+  ProblemOptions options = problem_options;
+  for (;;) {
+    const SmoothingProblem problem = make_problem(original, triangles, options);
+    BoundedResult result;
+    result.notes = problem.notes;
+    result.limits = count_limits(problem.fixed_limits);
+    result.run = run(*make_smoother(problem), problem, positions, run_options,
+                     [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+                       result.limits = count_limits(record.limits);
+                       return !observer || observer(iteration, record, moved);
+                     });
+    const DeviationByTriangle deviation =
+        measure_deviation_by_triangle(original, positions, triangles, problem.topology, options.threads);
+    result.deviation = deviation.whole;
+    if (deviation.whole.max <= limit.max || result.run.stopped == StopReason::fixed) return result;
+
+    const std::size_t held_before = options.held_near_surface.size();
+    const std::vector<Index> over = vertices_over(deviation, triangles, limit.max);
+    options.held_near_surface.insert(options.held_near_surface.end(), over.begin(), over.end());
+    std::sort(options.held_near_surface.begin(), options.held_near_surface.end());
+    options.held_near_surface.erase(
+        std::unique(options.held_near_surface.begin(), options.held_near_surface.end()),
+        options.held_near_surface.end());
+    if (options.held_near_surface.size() == held_before)
+      grow(options.held_near_surface, triangles, positions.size());
+    std::copy(original.begin(), original.end(), positions.begin());
+  }
+}
+
+}  // namespace isorelax

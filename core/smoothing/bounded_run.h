@@ -1,0 +1,35 @@
+#pragma once
+
+#include "smoothing/run.h"
+#include "surface/deviation.h"
+
+namespace isorelax {
+
+/// How far a result may be from the surface it came from.
+struct DeviationLimit {
+  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit.
+  double max = 0.005;
+};
+
+/// Makes the smoother for a problem.
+using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
+
+/// What a bounded run did.
+struct BoundedResult {
+  RunResult run;
+  Deviation deviation;
+  /// Limits of the last step, counted by bit.
+  std::array<std::size_t, 8> limits{};
+  /// The problem's notes, and what the limit held.
+  std::vector<std::string> notes;
+};
+
+/// Smooths a mesh in place and measures how far it is from where it was. Where a triangle is farther than the
+/// limit allows, its vertices are held where they were and the run is done again from the start, until the
+/// limit holds everywhere; in the end it always does, if with everything held. Throws as make_problem.
+BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
+                          const RunOptions& run_options, const DeviationLimit& limit,
+                          const StepObserver& observer = {});
+
+}  // namespace isorelax

@@ -1,0 +1,61 @@
+#include "smoothing/bounded_run.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "generate/generate.h"
+
+namespace isorelax {
+namespace {
+
+BoundedResult smooth(TriangleMesh& mesh, double limit, SurfaceRule surface = SurfaceRule::tangent) {
+  return run_bounded(mesh.positions, mesh.triangles, {.surface = surface},
+                     [](const SmoothingProblem& problem) { return make_jacobi(problem); }, {.iterations = 40},
+                     {limit});
+}
+
+TriangleMesh shaken_torus() {
+  return generate(ShapeKind::torus, {.seed = 3, .triangles = 1000, .jitter = 0.5});
+}
+
+double deviation(const TriangleMesh& a, const TriangleMesh& b) {
+  return measure_deviation(a.positions, b.positions, a.triangles, Topology(a.triangles, a.vertex_count()))
+      .max;
+}
+
+TEST(BoundedRun, NeverExceedsTheLimit) {
+  TriangleMesh free = shaken_torus();
+  const double unlimited = smooth(free, std::numeric_limits<double>::infinity()).deviation.max;
+  ASSERT_GT(unlimited, 0);
+  for (const double share : {0.8, 0.3, 0.05}) {
+    TriangleMesh mesh = shaken_torus();
+    const BoundedResult result = smooth(mesh, share * unlimited);
+    EXPECT_LE(result.deviation.max, share * unlimited);
+    EXPECT_EQ(result.deviation.max, deviation(shaken_torus(), mesh));
+    EXPECT_GT(result.limits[6], 0U) << "surface limits are counted";
+  }
+}
+
+TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
+  TriangleMesh mesh = shaken_torus();
+  EXPECT_LT(smooth(mesh, 0).deviation.max, 1e-14);
+  EXPECT_EQ(mesh.positions, shaken_torus().positions);
+}
+
+TEST(BoundedRun, ProjectionKeepsVerticesOnTheSurfaceItCameFrom) {
+  TriangleMesh tangent = generate(ShapeKind::random_sphere, {.seed = 8, .vertices = 2000});
+  TriangleMesh projected = tangent;
+  smooth(tangent, 1, SurfaceRule::tangent);
+  smooth(projected, 1, SurfaceRule::project);
+  const auto radial_error = [](const TriangleMesh& mesh) {
+    double largest = 0;
+    for (const Vec3& p : mesh.positions) largest = std::max(largest, std::abs(p.norm() - 1));
+    return largest;
+  };
+  EXPECT_GT(radial_error(tangent), 1e-3);
+  EXPECT_LT(radial_error(projected), 1e-4);
+}
+
+}  // namespace
+}  // namespace isorelax
