@@ -121,7 +121,7 @@ TEST_F(Files, WritingAndReadingByExtensionKeepsTheMesh) {
 
 TEST_F(Files, AMeshThatCannotBeEncodedLeavesTheOldFileUntouched) {
   const fs::path file = put("mesh.stl", "old");
-  EXPECT_THROW(static_cast<void>(write_mesh(file, hard_numbers())), MeshError);
+  EXPECT_THROW(static_cast<void>(write_mesh(file, hard_numbers())), OutputError);
   EXPECT_EQ(bytes_of(file), "old");
   EXPECT_EQ(file_count(), 1U);
 }
