@@ -22,7 +22,7 @@ FILES_PER_UNIT = 12
 
 
 def read_commands(build, root):
-    """Pairs (source, options): what belongs to one object file is left out of the options."""
+    """Triples (source, target, options): what belongs to one object file is left out of the options."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = Path(entry["file"])
         if not source.is_relative_to(root) or source.is_relative_to(build):
@@ -30,6 +30,7 @@ def read_commands(build, root):
         words = shlex.split(entry["command"])
         while not Path(words[0]).name.startswith(("g++", "c++", "clang++")):
             words.pop(0)
+        target = re.search(r"CMakeFiles/([^/]+)\.dir/", words[words.index("-o") + 1]).group(1)
         options, skip = [], False
         for word in words[1:]:
             if skip:
@@ -38,19 +39,14 @@ def read_commands(build, root):
                 skip = True
             elif word not in ("-MD", "-MMD"):
                 options.append(word)
-        yield source, entry["output"] if "output" in entry else "", tuple(options)
-
-
-def target_of(output):
-    match = re.search(r"CMakeFiles/([^/]+)\.dir/", output)
-    return match.group(1) if match else "other"
+        yield source, target, tuple(options)
 
 
 def make_units(build, root):
     """Groups of sources with the same options."""
     groups = {}
-    for source, output, options in read_commands(build, root):
-        groups.setdefault((target_of(output), options), []).append(source)
+    for source, target, options in read_commands(build, root):
+        groups.setdefault((target, options), []).append(source)
     for (target, options), sources in sorted(groups.items()):
         sources.sort()
         for first in range(0, len(sources), FILES_PER_UNIT):
@@ -85,8 +81,8 @@ class Checker:
         parts = [f"{path} {self.digest(self.build / path)}" for path in sorted(files)]
         return hashlib.sha256("\n".join([self.base, *options, *parts]).encode()).hexdigest()
 
-    def tidy(self, file, options):
-        command = [TOOL, "--quiet", f"--header-filter={self.header_filter}", str(file), "--", *options]
+    def tidy(self, file, options, *more):
+        command = [TOOL, "--quiet", f"--header-filter={self.header_filter}", *more, str(file), "--", *options]
         run = subprocess.run(command, capture_output=True, text=True, cwd=self.root, stdin=subprocess.DEVNULL)
         return run.returncode == 0, run.stdout.strip() or run.stderr.strip()
 
@@ -100,7 +96,7 @@ class Checker:
         if len(sources) > 1:
             together = self.cache / f"{target}_{first}.cpp"
             together.write_text("".join(f'#include "{source}"\n' for source in sources))
-            clean, _ = self.tidy(together, options)
+            clean, _ = self.tidy(together, options, "--checks=-bugprone-suspicious-include")
         else:
             clean = False
         findings = []

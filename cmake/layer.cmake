@@ -7,6 +7,8 @@ target_compile_options(isorelax_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
   # Results are compared bit for bit between builds and thread counts: no contraction into fused operations.
   -ffp-contract=off
+  # In a unity build every type of an anonymous namespace looks like one of a header.
+  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>
   # g++ 12 sees an overlap in "text" + std::string that is not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Nobody reads errno after sqrt, nobody traps: without this, loops with a square root are not vectorised.
@@ -17,6 +19,22 @@ if(ISORELAX_SANITIZE)
     -fsanitize=${ISORELAX_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(isorelax_build_flags INTERFACE -fsanitize=${ISORELAX_SANITIZE})
 endif()
+
+# Eigen and the standard library are compiled once and not once per file. Off in the build that treats warnings as
+# errors: there every file has to include what it uses.
+if(ISORELAX_PRECOMPILE)
+  file(WRITE ${CMAKE_BINARY_DIR}/precompiled/common.cpp "")
+  add_library(isorelax_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled/common.cpp)
+  target_link_libraries(isorelax_precompiled PRIVATE isorelax_build_flags Eigen3::Eigen)
+  target_precompile_headers(isorelax_precompiled PRIVATE
+    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional> <limits>
+    <memory> <optional> <span> <string> <string_view> <unordered_map> <vector>)
+endif()
+function(isorelax_precompile target)
+  if(ISORELAX_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM isorelax_precompiled)
+  endif()
+endfunction()
 
 # isorelax_layer(NAME ROOM SOURCES... [DEPENDS targets...] [PRIVATE targets...])
 # ROOM is the folder under core/ or app/; its headers are included as "ROOM/file.h".
@@ -32,4 +50,5 @@ function(isorelax_layer name)
   add_library(isorelax::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC ${stage})
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE isorelax_build_flags ${ARG_PRIVATE})
+  isorelax_precompile(${target})
 endfunction()

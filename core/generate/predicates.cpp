@@ -12,7 +12,7 @@ int sign_of(Wide value) {
 }
 
 /// Bound of the relative rounding error of the determinants below, generous.
-constexpr double kRounding = 1e-14;
+constexpr double kDeterminantRounding = 1e-14;
 
 }  // namespace
 
@@ -37,7 +37,8 @@ int in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const 
   const double pb = static_cast<double>(b2) * static_cast<double>(ca);
   const double pc = static_cast<double>(c2) * static_cast<double>(ab);
   const double value = pa + pb + pc;
-  if (std::abs(value) > kRounding * (std::abs(pa) + std::abs(pb) + std::abs(pc))) return value > 0 ? 1 : -1;
+  if (std::abs(value) > kDeterminantRounding * (std::abs(pa) + std::abs(pb) + std::abs(pc)))
+    return value > 0 ? 1 : -1;
   return sign_of(Wide{a2} * bc + Wide{b2} * ca + Wide{c2} * ab);
 }
 
@@ -55,7 +56,7 @@ int orient_space(const GridPoint& a, const GridPoint& b, const GridPoint& c, con
     value += (first - second) * static_cast<double>(w[i]);
     size += (std::abs(first) + std::abs(second)) * std::abs(static_cast<double>(w[i]));
   }
-  if (std::abs(value) > kRounding * size) return value > 0 ? 1 : -1;
+  if (std::abs(value) > kDeterminantRounding * size) return value > 0 ? 1 : -1;
   Wide exact = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;

@@ -12,17 +12,17 @@ namespace isorelax {
 namespace {
 
 /// Points of the random square are multiples of 2^-29: their triangulation is exact.
-constexpr double kGrid = 0x1p29;
+constexpr double kSquareGrid = 0x1p29;
 
 /// Points evenly on the boundary, counter-clockwise from the origin; `count` >= 4 gives all corners.
 std::vector<GridPoint> boundary_of_square(std::size_t count) {
   std::vector<GridPoint> points;
-  const auto one = static_cast<std::int64_t>(kGrid);
+  const auto one = static_cast<std::int64_t>(kSquareGrid);
   for (std::size_t side = 0; side < 4; ++side) {
     const std::size_t on_side = count / 4 + (side < count % 4 ? 1 : 0);
     for (std::size_t i = 0; i < on_side; ++i) {
       const auto along = static_cast<std::int64_t>(
-          std::floor(kGrid * static_cast<double>(i) / static_cast<double>(on_side)));
+          std::floor(kSquareGrid * static_cast<double>(i) / static_cast<double>(on_side)));
       const std::pair<std::int64_t, std::int64_t> at[4] = {
           {along, 0}, {one, along}, {one - along, one}, {0, one - along}};
       points.push_back({at[side].first, at[side].second, 0});
@@ -38,13 +38,14 @@ TriangleMesh make_random_square(const RandomSquareSize& size) {
   std::set<std::pair<std::int64_t, std::int64_t>> taken;
   Random random(size.seed);
   while (points.size() < size.vertices) {
-    const GridPoint p{static_cast<std::int64_t>(kGrid * random.uniform()),
-                      static_cast<std::int64_t>(kGrid * random.uniform()), 0};
+    const GridPoint p{static_cast<std::int64_t>(kSquareGrid * random.uniform()),
+                      static_cast<std::int64_t>(kSquareGrid * random.uniform()), 0};
     if (p.x > 0 && p.y > 0 && taken.emplace(p.x, p.y).second) points.push_back(p);
   }
   TriangleMesh mesh;
   for (const GridPoint& p : points) {
-    mesh.positions.emplace_back(static_cast<double>(p.x) / kGrid, static_cast<double>(p.y) / kGrid, 0);
+    mesh.positions.emplace_back(static_cast<double>(p.x) / kSquareGrid,
+                                static_cast<double>(p.y) / kSquareGrid, 0);
   }
   mesh.triangles = delaunay_triangles(points);
   return mesh;

@@ -9,7 +9,7 @@ namespace isorelax {
 namespace {
 
 /// More words than can follow an element on its line: four of a colour and two of a texture coordinate.
-constexpr std::size_t kManyWords = 7;
+constexpr std::size_t kManyElementWords = 7;
 
 /// Reads [ST][C][N][4][n]OFF: counts, vertices (position, normal, colour, texture coordinates), faces
 /// (degree, vertices, colour). See Geomview's manual, OFF(5).
@@ -131,7 +131,7 @@ void OffReader::read_vertex(std::size_t index) {
 }
 
 void OffReader::read_vertex_color(std::size_t index, bool began_line) {
-  const std::size_t words = text_.words_left(kManyWords);
+  const std::size_t words = text_.words_left(kManyElementWords);
   const std::size_t texture_words = has_texture_ ? 2 : 0;
   const std::size_t color_words = words - std::min(words, texture_words);
   if (began_line && (color_words == 3 || color_words == 4)) {
@@ -178,7 +178,7 @@ void OffReader::read_face(std::size_t index) {
 }
 
 void OffReader::read_face_color(std::size_t index) {
-  const std::size_t words = text_.words_left(kManyWords);
+  const std::size_t words = text_.words_left(kManyElementWords);
   if (words == 3 || words == 4) {
     face_colors_.take(text_, index, static_cast<unsigned>(words));
     return;

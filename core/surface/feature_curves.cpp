@@ -13,8 +13,8 @@ constexpr std::size_t kSamplesAheadOfAnEnd = 5;
 constexpr double kStraight = 5e-5;
 /// The lift of an arc over its chord is a quarter of the turn at its ends times half the chord; noise may not
 /// make more of it than this.
-constexpr double kLargestLift = 0.4;
-constexpr int kCorrections = 2;
+constexpr double kLargestCurveLift = 0.4;
+constexpr int kCurveCorrections = 2;
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -69,7 +69,7 @@ FeatureCurves::FeatureCurves(std::span<const Vec3> positions, std::span<const Ed
       straightest = std::min(straightest, turn(p, end));
     }
     const double length = (x_[pieces_[p].vertices[1]] - x_[pieces_[p].vertices[0]]).norm();
-    if (straightest == kStraight) pieces_[p].largest_lift = kLargestLift * std::min(turns, 1.0) * length;
+    if (straightest == kStraight) pieces_[p].largest_lift = kLargestCurveLift * std::min(turns, 1.0) * length;
   }
   for (Index p = 0; p < pieces_.size(); ++p)
     if (pieces_[p].largest_lift > 0)
@@ -189,7 +189,7 @@ CurvePoint FeatureCurves::project(const Vec3& point, Index edge) const {
   Foot at = walk(point, edge);
   Vec3 lifted = lift(at);
   // The lift moves a little along the chain as well: take that back.
-  for (int i = 0; i < kCorrections && lifted != at.point; ++i) {
+  for (int i = 0; i < kCurveCorrections && lifted != at.point; ++i) {
     const Vec3 along = direction(at.piece);
     const Vec3 back = along * (along.dot(point - lifted) / along.squaredNorm());
     at = walk(at.point + back, at.piece);
