@@ -22,8 +22,9 @@ class RunReporter {
     iteration_ = request_.start->iteration + iteration;
     rows_.push_back({iteration_, record.after.energy, angles.min_deg, angles.max_deg, record.largest_move,
                      request_.series});
-    step_ = {iteration_,       record.before,       record.after,       count_limits(record.limits), record.moved,
-             positions.size(), record.largest_move, record.fold_passes, record.energy_passes};
+    step_ = {iteration_,          record.before,    record.after,        count_limits(record.limits),
+             record.moved,        positions.size(), record.largest_move, record.fold_passes,
+             record.energy_passes};
     context_.progress("Smoothing", static_cast<double>(iteration) / request_.iterations);
     const auto since = Clock::now() - published_;
     if (context_.view_is_waiting() && since > measuring_ && since > std::chrono::milliseconds(15))

@@ -25,8 +25,8 @@ struct FeatureEdge {
   Corner corner;
 };
 
-/// The creases of the surface whose ends both belong to a ridge, a corner or the border, in the order of their
-/// corners. `classes` are those of classify_vertices with the same options: both go by one rule.
+/// The creases of the surface whose ends both belong to a ridge, a corner or the border, in the order of
+/// their corners. `classes` are those of classify_vertices with the same options: both go by one rule.
 [[nodiscard]] std::vector<FeatureEdge> crease_edges(std::span<const Vec3> positions,
                                                     std::span<const Triangle> triangles,
                                                     const Topology& topology, const FeatureOptions& options,

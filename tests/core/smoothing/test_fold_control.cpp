@@ -17,14 +17,12 @@ TEST(FoldFreeShare, IsOneForAMoveThatKeepsTheTriangle) {
 
 TEST(FoldFreeShare, StopsAtTheSafeFractionOfTheWayToZeroArea) {
   // The apex crosses the base line after a quarter of the way.
-  EXPECT_NEAR(fold_free_share(kTriangle, {kTriangle[0], kTriangle[1], Vec3{0, -3, 0}}), 0.6 * 0.25,
-              1e-15);
+  EXPECT_NEAR(fold_free_share(kTriangle, {kTriangle[0], kTriangle[1], Vec3{0, -3, 0}}), 0.6 * 0.25, 1e-15);
 }
 
 TEST(FoldFreeShare, FindsTheFirstRootWhenTheTriangleTurnsOverAndBack) {
   // Both legs turn by half a circle in a straight motion: the area along it is (1 - 2 a)^2.
-  EXPECT_NEAR(fold_free_share(kTriangle, {kTriangle[0], -kTriangle[1], -kTriangle[2]}), 0.6 * 0.5,
-              1e-12);
+  EXPECT_NEAR(fold_free_share(kTriangle, {kTriangle[0], -kTriangle[1], -kTriangle[2]}), 0.6 * 0.5, 1e-12);
 }
 
 TEST(FoldFreeShare, LeavesAreaForRandomMoves) {
