@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
@@ -100,7 +101,8 @@ class BenchmarkCommand : public Command {
   void declare(CLI::App& app) override {
     app.add_option("WHAT", what_, "speed")->required();
     app.add_option("--triangles", sizes_, "Sizes of the meshes (default 10000 100000 1000000)")
-        ->type_name("N...");
+        ->type_name("N...")
+        ->check(whole_number(1));
     app.add_option("--rounds", rounds_, "Steps that are timed (default 15)")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));

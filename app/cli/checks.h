@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/Validators.hpp>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -15,6 +17,25 @@ inline CLI::Validator whole_number(std::uint64_t least) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool sound = error == std::errc{} && end == text.data() + text.size() && value >= least;
     return sound ? std::string() : text + " is not a whole number of " + std::to_string(least) + " or more";
+  };
+  return CLI::Validator(check, "");
+}
+
+/// Check for numbers between `low` and `high`. CLI11's own range lets NaN pass, and names a bound of all
+/// numbers with three hundred digits.
+inline CLI::Validator number_between(double low, double high) {
+  const auto check = [low, high](const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool sound = error == std::errc{} && end == text.data() + text.size();
+    if (sound && value >= low && value <= high) return std::string();
+    const auto bound = [](double number) {
+      std::array<char, 32> digits{};
+      const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+      return std::string(digits.data(), written.ptr);
+    };
+    return text + (std::isinf(high) ? " is not a number of " + bound(low) + " or more"
+                                    : " is not a number from " + bound(low) + " to " + bound(high));
   };
   return CLI::Validator(check, "");
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
 #include "mesh/error.h"
@@ -42,8 +43,9 @@ SurfaceRule parse_surface(const std::string& text) {
   throw UsageError("--surface " + text + ": expected tangent or project");
 }
 
-/// Vertex numbers from 0, separated by white space or commas; # starts a comment.
-std::vector<Index> read_pins(const std::string& path) {
+/// Vertex numbers from 0, separated by white space or commas; # starts a comment. Throws InputError for what
+/// is no number of a vertex.
+std::vector<Index> read_pins(const std::string& path, std::size_t vertex_count) {
   std::ifstream file(path);
   if (!file) throw InputError(path, "", "cannot be opened");
   std::vector<Index> pins;
@@ -59,6 +61,11 @@ std::vector<Index> read_pins(const std::string& path) {
         throw InputError(path, "line " + std::to_string(row),
                          "expected vertex numbers, found \"" + line.substr(at, end - at) + "\"");
       }
+      if (id >= vertex_count) {
+        throw InputError(path, "line " + std::to_string(row),
+                         "names vertex " + std::to_string(id) + ", but the mesh has " +
+                             std::to_string(vertex_count) + " (numbered from 0)");
+      }
       pins.push_back(id);
       at = end;
     }
@@ -72,7 +79,7 @@ std::vector<Index> read_pins(const std::string& path) {
 void declare_problem(CLI::App& app, ProblemSpec& spec) {
   auto* mu = app.add_option("--mu", spec.mu, "mu_A: 0 improves angles only, 1 areas only (default 0)")
                  ->type_name("M")
-                 ->check(CLI::Range(0.0, 1.0));
+                 ->check(number_between(0, 1));
   app.add_option("--weights", spec.weights, "Weights of the shape and the area term, instead of --mu")
       ->type_name("S,A")
       ->excludes(mu);
@@ -124,7 +131,7 @@ FeatureOptions parse_features(const std::string& text) {
   return options;
 }
 
-ProblemOptions parse_problem(Console& console, const ProblemSpec& spec) {
+ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, std::size_t vertex_count) {
   ProblemOptions options;
   options.weights = spec.weights.empty() ? EnergyWeights::from_mu(spec.mu) : parse_weights(spec.weights);
   options.exponent = spec.exponent;
@@ -132,7 +139,7 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec) {
   options.features = parse_features(spec.features);
   options.surface = parse_surface(spec.surface);
   options.reference = parse_reference(console, spec.reference);
-  if (!spec.pin_file.empty()) options.pinned = read_pins(spec.pin_file);
+  if (!spec.pin_file.empty()) options.pinned = read_pins(spec.pin_file, vertex_count);
   options.threads = spec.threads;
   return options;
 }

@@ -28,8 +28,10 @@ struct ProblemSpec {
 /// Declares --mu, --weights, --exponent, --reference, --boundary, --features, --pin and --threads.
 void declare_problem(CLI::App& app, ProblemSpec& spec);
 
-/// Reads the typed options; reference and pin files too. Throws UsageError, InputError.
-[[nodiscard]] ProblemOptions parse_problem(Console& console, const ProblemSpec& spec);
+/// Reads the typed options; reference and pin files too, for a mesh of so many vertices. Throws UsageError,
+/// InputError.
+[[nodiscard]] ProblemOptions parse_problem(Console& console, const ProblemSpec& spec,
+                                           std::size_t vertex_count);
 
 /// equilateral | equilateral:EDGE | initial | FILE.
 [[nodiscard]] ReferenceChoice parse_reference(Console& console, const std::string& text);

@@ -1,6 +1,7 @@
 #include "render/picture.h"
 
 #include <CLI/App.hpp>
+#include <filesystem>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -83,6 +84,8 @@ class RenderCommand : public Command {
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
     read_options();
+    if (std::filesystem::path(output_).extension() != ".png")
+      throw UsageError(output_ + ": pictures are PNG files, named .png");
     const TriangleMesh mesh = read_input(console, file_);
     const auto colours = colour_faces(color_, mesh);
     std::optional<render::FaceColors> faces;

@@ -1,7 +1,9 @@
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
@@ -97,16 +99,16 @@ class SmoothCommand : public Command {
     declare_problem(app, problem_);
     app.add_option("--relaxation", jacobi_.relaxation, "Factor on the Jacobi step (default 0.9)")
         ->type_name("W")
-        ->check(CLI::Range(0.01, 2.0));
+        ->check(number_between(0.01, 2));
     app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
     app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
         ->type_name("T")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_between(0, std::numeric_limits<double>::max()));
     app.add_option(
            "--max-deviation", limit_.max,
            "Largest distance from the input surface, of its bounding-box diagonal (default 0.005; inf: any)")
         ->type_name("D")
-        ->check(CLI::NonNegativeNumber);
+        ->check(number_between(0, std::numeric_limits<double>::infinity()));
     app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }
@@ -116,6 +118,9 @@ class SmoothCommand : public Command {
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
     TriangleMesh mesh = read_input(console, input_);
+    // Before the long work, not after it.
+    check_writable(output_);
+    if (!report_.empty()) check_writable(report_);
     const Outcome outcome = smooth(console, mesh);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
     for (const std::string& message : write_mesh(output_, mesh)) console.message(output_ + ": " + message);
@@ -133,7 +138,7 @@ class SmoothCommand : public Command {
 
  private:
   Outcome smooth(Console& console, TriangleMesh& mesh) const {
-    const ProblemOptions options = parse_problem(console, problem_);
+    const ProblemOptions options = parse_problem(console, problem_, mesh.vertex_count());
     const Topology topology(mesh.triangles, mesh.vertex_count());
     const auto measure = [&] {
       return measure_quality(mesh.positions, mesh.triangles, topology, options.threads);

@@ -2,6 +2,7 @@
 #include <CLI/Validators.hpp>
 #include <optional>
 
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "editor/screenshot.h"
@@ -34,7 +35,7 @@ class ViewCommand : public Command {
         ->type_name("PNG");
     app.add_option("--size", size_, "Size of the window or of the screenshot, in pixels")->type_name("WxH");
     app.add_option("--scale", scale_, "Screenshot: pixels per point, 2 for a high-resolution display")
-        ->check(CLI::Range(0.5, 4.0));
+        ->check(number_between(0.5, 4));
     app.add_option("--after-iterations", iterations_, "Screenshot: smooth this many iterations first")
         ->type_name("N");
     app.add_option("--frames", frames_, "Window: close after at least N frames, when nothing is left to do")

@@ -10,6 +10,9 @@
 namespace isorelax::render {
 namespace {
 
+/// What OpenGL implementations, OSMesa among them, can still draw into.
+constexpr int kLargestSide = 16384;
+
 Scene make_scene(const TriangleMesh& mesh, const std::optional<FaceColors>& colors,
                  const PictureOptions& options) {
   Scene scene;
@@ -60,6 +63,9 @@ PictureSize parse_size(std::string_view text) {
       !parse_number(text.substr(by + 1), size.height) || size.width < 1 || size.height < 1)
     throw UsageError("picture size '" + std::string(text) +
                      "' is not WIDTHxHEIGHT in pixels, such as 1280x720");
+  if (size.width > kLargestSide || size.height > kLargestSide)
+    throw UsageError("picture size '" + std::string(text) + "': no side may be longer than " +
+                     std::to_string(kLargestSide) + " pixels");
   return size;
 }
 

@@ -139,17 +139,14 @@ void flush_folder(const fs::path& file) {
   }
 }
 
-}  // namespace
-
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  struct stat old {};
-  const bool exists = ::stat(path.c_str(), &old) == 0;
+/// Whether `path` is written in its place instead of by a new file: devices and pipes are. Throws OutputError
+/// where nothing can be written.
+bool is_written_straight(const fs::path& path, const struct stat& old, bool exists) {
   if (exists && S_ISDIR(old.st_mode)) {
     fail(path, EISDIR);
   }
   if (exists && (!S_ISREG(old.st_mode) || stands_under(path, "/dev/") || stands_under(path, "/proc/"))) {
-    write_straight(path, bytes);
-    return;
+    return true;
   }
   if (path.empty() || path.filename().empty()) {
     fail(path, ENOENT);
@@ -157,6 +154,31 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   // A rename would replace a write-protected file; its owner did not mean that.
   if (exists && ::access(path.c_str(), W_OK) != 0) {
     fail(path, errno);
+  }
+  return false;
+}
+
+}  // namespace
+
+void check_writable(const fs::path& path) {
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (is_written_straight(path, old, exists)) {
+    return;
+  }
+  const fs::path target = follow_links(path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    fail(path, errno);
+  }
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (is_written_straight(path, old, exists)) {
+    write_straight(path, bytes);
+    return;
   }
   const fs::path target = follow_links(path);
   fs::path temporary;

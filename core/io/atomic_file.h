@@ -13,4 +13,8 @@ namespace isorelax {
 /// untouched and nothing new is left behind.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Throws the OutputError that writing `path` would meet for want of its folder or of permission, before long
+/// work is spent on what to write. Leaves no trace.
+void check_writable(const std::filesystem::path& path);
+
 }  // namespace isorelax

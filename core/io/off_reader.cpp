@@ -220,6 +220,9 @@ void OffReader::finish() {
                             " left out: a colour has 1, 3 or 4");
   }
   if (text_.find_word()) {
+    if (parse_integer(text_.peek_word())) {
+      text_.fail("the header promises " + std::to_string(face_count_) + " faces, but more follow");
+    }
     raw_.messages.push_back("everything after the last face, from line " + std::to_string(text_.line()) +
                             " on, left out");
   }

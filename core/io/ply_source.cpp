@@ -105,10 +105,21 @@ void PlySource::end_row() {
 }
 
 std::string PlySource::describe_rest() {
+  element_ = nullptr;
   if (encoding_ == FileEncoding::text) {
-    return text_.find_word() ? "everything after the last element, from " + place() + " on, left out" : "";
+    if (!text_.find_word()) {
+      return "";
+    }
+    if (parse_double(text_.peek_word())) {
+      fail("more numbers follow than the header promises");
+    }
+    return "everything after the last element, from " + place() + " on, left out";
   }
-  return bytes_left() > 0 ? std::to_string(bytes_left()) + " bytes after the last element left out" : "";
+  const std::string_view rest = bytes_.substr(position_);
+  if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+    fail(std::to_string(rest.size()) + " more bytes follow than the header promises");
+  }
+  return "";
 }
 
 std::size_t PlySource::least_size(ScalarType type) const {

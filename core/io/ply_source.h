@@ -23,7 +23,8 @@ class PlySource {
 
   /// Ends a row: in text, nothing may be left on its line.
   void end_row();
-  /// What follows the last element, as a message; empty when nothing does.
+  /// What follows the last element, as a message; empty when nothing does. Throws InputError for what looks
+  /// like more elements than the header promises: a number in text, anything but blanks in binary.
   [[nodiscard]] std::string describe_rest();
 
   /// Least number of bytes that a number of this type takes.

@@ -202,6 +202,11 @@ RawMesh read_binary(std::string_view bytes, const std::string& name) {
   if (std::any_of(color.values.begin(), color.values.end(), [](double v) { return v != 0.0; })) {
     raw.attributes.face.push_back(std::move(color));
   }
+  if (rest >= kStlFacet && rest % kStlFacet == 0) {
+    throw InputError(one_line(name), "byte " + std::to_string(kStlTitle),
+                     "the header promises " + std::to_string(count) + " triangles, but the file holds " +
+                         std::to_string(count + rest / kStlFacet));
+  }
   if (rest > 0) {
     raw.messages.push_back(counted(rest, "byte", "bytes") + " after the last triangle left out");
   }

@@ -46,6 +46,54 @@ TEST(QualityCommand, PrintsExactlyTheKeysOfTheContract) {
   EXPECT_NEAR(object["shape_max"].get<double>(), 2.3094010767585034, 1e-12);
 }
 
+TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
+  const Workspace workspace;
+  const std::string smooth =
+      "smooth " + workspace.write("t.off", kTriangle) + " -o " + workspace.path("o.off");
+  for (const char* option : {" --mu nan", " --tolerance nan", " --tolerance inf", " --relaxation nan",
+                             " --max-deviation nan", " --max-deviation -1"}) {
+    const Outcome outcome = run_program(smooth + option);
+    EXPECT_EQ(outcome.status, 2) << option;
+    expect_one_error_line(outcome);
+    EXPECT_LT(outcome.err.size(), 160U) << outcome.err;
+  }
+  EXPECT_EQ(run_program(smooth + " --max-deviation inf").status, 0);
+}
+
+TEST(SmoothCommand, NamesTheLineOfAVertexThatCannotBePinned) {
+  const Workspace workspace;
+  const std::string pins = workspace.write("pins.txt", "0\n7\n");
+  const Outcome outcome = run_program("smooth " + workspace.write("t.off", kTriangle) + " -o " +
+                                      workspace.path("o.off") + " --pin " + pins);
+  EXPECT_EQ(outcome.status, 3);
+  expect_one_error_line(outcome);
+  EXPECT_NE(outcome.err.find(pins + ": line 2: names vertex 7"), std::string::npos) << outcome.err;
+}
+
+TEST(SmoothCommand, FindsOutBeforeTheWorkThatItCannotWrite) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  const Outcome no_folder = run_program("smooth " + mesh + " -o " + workspace.path("none/o.off"));
+  EXPECT_EQ(no_folder.status, 4);
+  expect_one_error_line(no_folder);
+  const Outcome no_report = run_program("smooth " + mesh + " -o " + workspace.path("o.off") + " --report " +
+                                        workspace.path("none/r.json"));
+  EXPECT_EQ(no_report.status, 4);
+  expect_one_error_line(no_report);
+  EXPECT_EQ(contents(workspace.path("o.off")), "");
+}
+
+TEST(RenderCommand, RefusesSizesAndFilesItCannotDraw) {
+  const Workspace workspace;
+  const std::string render = "render " + workspace.write("t.off", kTriangle) + " -o ";
+  for (const std::string& rest :
+       {workspace.path("a.jpg"), workspace.path("a.png") + " --size 1000000x1000000"}) {
+    const Outcome outcome = run_program(render + rest);
+    EXPECT_EQ(outcome.status, 2) << rest;
+    expect_one_error_line(outcome);
+  }
+}
+
 TEST(QualityCommand, ListsTheWorstTrianglesFirst) {
   const Workspace workspace;
   const std::string mesh = workspace.path("m.off");

@@ -65,7 +65,7 @@ TEST(Off, ColoursAfterThePlainHeaderAreKeptAndMissingOnesReported) {
 }
 
 TEST(Off, WhatFollowsTheLastFaceIsReported) {
-  const MeshFile file = read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\n3 0 1 2\n", "mesh.off");
+  const MeshFile file = read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\nrest 0 1 2\n", "mesh.off");
   EXPECT_TRUE(mentions(file.messages, "from line 8 on"));
 }
 

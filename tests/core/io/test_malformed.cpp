@@ -49,6 +49,8 @@ std::vector<Malformed> malformed_off() {
        "promises 4000000000 vertices"},
       {"off_lying_face_count", read_off, "OFF\n3 4294967295 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "line 2",
        "promises 4294967295 faces"},
+      {"off_too_small_face_count", read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", "line 7",
+       "promises 1 faces, but more follow"},
       {"off_huge_count", read_off, "OFF\n99999999999999999999 1 0\n", "line 2", "'99999999999999999999'"},
       {"off_truncated_vertices", read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n", "line 4",
        "ends after 2 of 3 vertices"},
@@ -105,6 +107,11 @@ std::vector<Malformed> malformed_obj() {
 std::vector<Malformed> malformed_ply() {
   const std::string little = ply_header("binary_little_endian", "3", "1");
   return {
+      {"ply_too_small_count", read_ply, kPlyText + "3 0 1 2\n3 0 2 1\n", "line 14", "more numbers follow"},
+      {"ply_too_small_count_binary", read_ply,
+       little + little_endian_floats({0, 0, 0, 1, 0, 0, 0, 1, 0}) +
+           std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0\3\0\0\0\0\1\0\0\0\2\0\0\0", 26),
+       "byte", "13 more bytes follow"},
       {"ply_no_end_header", read_ply, kPlyVertices, "line 6", "no end_header"},
       {"ply_unknown_format", read_ply, "ply\nformat ebcdic 1.0\nend_header\n", "line 2", "'ebcdic'"},
       {"ply_unknown_version", read_ply, "ply\nformat ascii 2.0\nend_header\n", "line 2", "'2.0'"},
@@ -163,6 +170,8 @@ std::vector<Malformed> malformed_stl() {
       {"stl_short", read_stl, std::string(50, '\1'), "byte 50", "ends within the header"},
       {"stl_lying_count", read_stl, std::string(80, '\1') + "\xff\xff\xff\xff" + std::string(100, '\0'),
        "byte 80", "promises 4294967295 triangles, but the file holds 2"},
+      {"stl_too_small_count", read_stl, binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}) + std::string(50, '\0'),
+       "byte 80", "promises 1 triangles, but the file holds 2"},
       {"stl_other_kind_of_file", read_stl, binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}) + std::string(1000, 'x'),
        "byte 80", "1000 more bytes follow them: this is no STL file"},
       {"stl_nan_binary", read_stl, binary_stl({{0, 0, 0, 1, std::nanf(""), 0, 0, 1, 0}}), "byte 112", "NaN"},
