@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "io/mesh_file.h"
+#include "quality/inverted.h"
+#include "quality/report.h"
+#include "smoothing/bounded_run.h"
+
+// Smooths real meshes as `isorelax smooth IN -o OUT` does when it is told nothing else, and asks what anybody
+// who smooths a mesh would ask.
+
+namespace isorelax {
+namespace {
+
+/// Largest distance that a ridge vertex may end from the ridge lines of the input, in mean edge lengths.
+constexpr double kRidgeDistance = 0.25;
+
+std::vector<std::string> mesh_names() {
+  std::vector<std::string> names;
+  std::istringstream list(ISORELAX_CORPUS_MESHES);
+  for (std::string name; list >> name;) names.push_back(name);
+  return names;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+/// Edges of the mesh that join two vertices on features.
+std::vector<std::pair<Vec3, Vec3>> ridge_edges(std::span<const Vec3> positions,
+                                               const SmoothingProblem& problem) {
+  const auto on_feature = [&](Index v) { return problem.classes.classes[v] != VertexClass::smooth; };
+  std::vector<std::pair<Vec3, Vec3>> edges;
+  for (const Triangle& t : problem.triangles)
+    for (unsigned k = 0; k < 3; ++k)
+      if (on_feature(t[k]) && on_feature(t[next(k)]))
+        edges.emplace_back(positions[t[k]], positions[t[next(k)]]);
+  return edges;
+}
+
+/// The blade is a regular strip of slender triangles between fixed ends. There a smallest angle is the width
+/// of a triangle over its length, and the widths add up to the width of the blade: whoever makes the narrow
+/// ones wider makes the wide ones narrower, and the mean stays (it falls by a thousandth) while the smallest
+/// angle and the energy improve.
+bool keeps_its_mean(const std::string& mesh) {
+  return mesh == "blade";
+}
+
+/// Everything that the tests look at, from one run per mesh.
+struct Smoothed {
+  TriangleMesh before, after;
+  SmoothingProblem problem;
+  BoundedResult result;
+};
+
+class Corpus : public testing::TestWithParam<std::string> {
+ protected:
+  static const Smoothed& smoothed() {
+    static std::map<std::string, Smoothed> cache;
+    const auto found = cache.find(GetParam());
+    if (found != cache.end()) return found->second;
+    TriangleMesh before = read_mesh(std::string(ISORELAX_CORPUS_DIR "/") + GetParam() + ".off").mesh;
+    const ProblemOptions options;
+    SmoothingProblem problem = make_problem(before.positions, before.triangles, options);
+    TriangleMesh after = before;
+    BoundedResult result = run_bounded(
+        after.positions, after.triangles, options, [](const SmoothingProblem& p) { return make_jacobi(p); },
+        RunOptions{}, DeviationLimit{});
+    Smoothed smoothed{std::move(before), std::move(after), std::move(problem), std::move(result)};
+    return cache.emplace(GetParam(), std::move(smoothed)).first->second;
+  }
+};
+
+TEST_P(Corpus, NoTriangleIsNewlyInverted) {
+  const Smoothed& s = smoothed();
+  const auto before = inverted_triangles(s.before.positions, s.before.triangles, s.problem.topology);
+  const auto after = inverted_triangles(s.after.positions, s.after.triangles, s.problem.topology);
+  EXPECT_LE(after.size(), before.size());
+  EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+}
+
+TEST_P(Corpus, NoTriangleTurnsItsBack) {
+  const Smoothed& s = smoothed();
+  std::size_t turned = 0;
+  for (const auto& [a, b, c] : s.before.triangles) {
+    const auto normal = [&](const TriangleMesh& m) {
+      return area_vector(m.positions[a], m.positions[b], m.positions[c]);
+    };
+    if (normal(s.before).dot(normal(s.after)) < 0) ++turned;
+  }
+  EXPECT_EQ(turned, 0U);
+}
+
+TEST_P(Corpus, TheMeanOfTheSmallestAnglesGrows) {
+  const Smoothed& s = smoothed();
+  const QualityReport before = measure_quality(s.before);
+  const QualityReport after = measure_quality(s.after);
+  if (keeps_its_mean(GetParam())) {
+    EXPECT_NEAR(after.mean_min_angle_deg, before.mean_min_angle_deg, 0.002 * before.mean_min_angle_deg);
+    EXPECT_GT(after.min_angle_deg, before.min_angle_deg);
+  } else {
+    EXPECT_GT(after.mean_min_angle_deg, before.mean_min_angle_deg);
+  }
+  EXPECT_LE(after.degenerate, before.degenerate);
+  EXPECT_LE(s.result.run.after.energy, s.result.run.before.energy);
+  std::printf("%s: smallest angle %.2f -> %.2f, mean %.2f -> %.2f, %u iterations, %.2f s\n",
+              GetParam().c_str(), before.min_angle_deg, after.min_angle_deg, before.mean_min_angle_deg,
+              after.mean_min_angle_deg, s.result.run.iterations, s.result.run.seconds);
+}
+
+TEST_P(Corpus, BoundaryAndCornersStayBitForBit) {
+  const Smoothed& s = smoothed();
+  for (Index v = 0; v < s.before.vertex_count(); ++v) {
+    if (!s.problem.topology.is_boundary(v) && s.problem.classes.classes[v] != VertexClass::corner) continue;
+    EXPECT_EQ(s.before.positions[v], s.after.positions[v]) << "vertex " << v;
+  }
+}
+
+TEST_P(Corpus, RidgesStayWhereTheyAre) {
+  const Smoothed& s = smoothed();
+  const auto edges = ridge_edges(s.before.positions, s.problem);
+  double furthest = 0;
+  for (Index v = 0; v < s.before.vertex_count(); ++v) {
+    if (s.problem.classes.classes[v] != VertexClass::ridge) continue;
+    if (s.before.positions[v] == s.after.positions[v]) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b] : edges)
+      nearest = std::min(nearest, distance_to_segment(s.after.positions[v], a, b));
+    furthest = std::max(furthest, nearest);
+  }
+  EXPECT_LE(furthest, kRidgeDistance * s.problem.mean_edge_length);
+}
+
+TEST_P(Corpus, TheSurfaceStaysWhereItIs) {
+  EXPECT_LE(smoothed().result.deviation.max, DeviationLimit{}.max);
+}
+
+TEST_P(Corpus, TheOrderAndTheTrianglesAreKept) {
+  const Smoothed& s = smoothed();
+  EXPECT_EQ(s.before.triangles, s.after.triangles);
+  EXPECT_EQ(s.before.vertex_count(), s.after.vertex_count());
+}
+
+INSTANTIATE_TEST_SUITE_P(RealMeshes, Corpus, testing::ValuesIn(mesh_names()),
+                         [](const auto& mesh) { return mesh.param; });
+
+}  // namespace
+}  // namespace isorelax
