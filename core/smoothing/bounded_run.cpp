@@ -1,6 +1,10 @@
 #include "smoothing/bounded_run.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "quality/inverted.h"
 
 namespace isorelax {
 namespace {
@@ -16,6 +20,15 @@ std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
+}
+
+/// Adds the vertices of triangles that lie upside down now and did not before. Whether one does depends on
+/// its surroundings too, which no single step looks at.
+void add_vertices_turned_over(std::vector<Index>& vertices, std::span<const Index> before,
+                              std::span<const Index> now, std::span<const Triangle> triangles) {
+  std::vector<Index> turned;
+  std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(turned));
+  for (const Index t : turned) vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
 }
 
 /// Adds the neighbours of all held vertices: how the held region grows when holding the triangles alone was
@@ -42,6 +55,7 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
                           const StepObserver& observer) {
   const std::vector<Vec3> original(positions.begin(), positions.end());
   ProblemOptions options = problem_options;
+  std::optional<std::vector<Index>> inverted_before;
   for (;;) {
     const SmoothingProblem problem = make_problem(original, triangles, options);
     BoundedResult result;
@@ -55,10 +69,16 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
     const DeviationByTriangle deviation =
         measure_deviation_by_triangle(original, positions, triangles, problem.topology, options.threads);
     result.deviation = deviation.whole;
-    if (deviation.whole.max <= limit.max || result.run.stopped == StopReason::fixed) return result;
+    std::vector<Index> over;
+    if (deviation.whole.max > limit.max) over = vertices_over(deviation, triangles, limit.max);
+    const std::vector<Index> inverted =
+        inverted_triangles(positions, triangles, problem.topology, options.threads);
+    if (!inverted_before)
+      inverted_before = inverted_triangles(original, triangles, problem.topology, options.threads);
+    add_vertices_turned_over(over, *inverted_before, inverted, triangles);
+    if (over.empty() || result.run.stopped == StopReason::fixed) return result;
 
     const std::size_t held_before = options.held_near_surface.size();
-    const std::vector<Index> over = vertices_over(deviation, triangles, limit.max);
     options.held_near_surface.insert(options.held_near_surface.end(), over.begin(), over.end());
     std::sort(options.held_near_surface.begin(), options.held_near_surface.end());
     options.held_near_surface.erase(

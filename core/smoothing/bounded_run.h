@@ -26,7 +26,8 @@ struct BoundedResult {
 
 /// Smooths a mesh in place and measures how far it is from where it was. Where a triangle is farther than the
 /// limit allows, its vertices are held where they were and the run is done again from the start, until the
-/// limit holds everywhere; in the end it always does, if with everything held. Throws as make_problem.
+/// limit holds everywhere; in the end it always does, if with everything held. Likewise where a triangle lies
+/// upside down (inverted_triangles) that did not before. Throws as make_problem.
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,

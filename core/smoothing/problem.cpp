@@ -186,8 +186,9 @@ class ProblemBuilder {
       p_.fixed_limits[v] |= kLimitSurface;
     }
     if (options_.held_near_surface.empty()) return;
-    p_.notes.push_back(counted(options_.held_near_surface.size(), "vertex is", "vertices are") +
-                       " held for the largest deviation allowed: " + list_ids(options_.held_near_surface));
+    p_.notes.push_back(
+        counted(options_.held_near_surface.size(), "vertex is", "vertices are") +
+        " held, to stay near the surface and keep it unfolded: " + list_ids(options_.held_near_surface));
   }
 
   void freeze_surface() {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "smoothing/objective.h"
+
 namespace isorelax {
 namespace {
 
@@ -89,6 +91,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
       break;
     }
   }
+  if (result.iterations == 0) result.before = result.after = Objective(problem).evaluate(positions);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

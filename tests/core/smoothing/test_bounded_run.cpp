@@ -37,6 +37,17 @@ TEST(BoundedRun, NeverExceedsTheLimit) {
   }
 }
 
+TEST(BoundedRun, TellsTheEnergyOfAMeshInWhichNothingMayMove) {
+  const TriangleMesh original = shaken_torus();
+  TriangleMesh mesh = original;
+  const BoundedResult moved = smooth(mesh, std::numeric_limits<double>::infinity());
+  mesh = original;
+  const BoundedResult held = smooth(mesh, 0);
+  EXPECT_EQ(held.run.iterations, 0U);
+  EXPECT_EQ(held.run.before.energy, moved.run.before.energy);
+  EXPECT_EQ(held.run.after.energy, held.run.before.energy);
+}
+
 TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   TriangleMesh mesh = shaken_torus();
   EXPECT_LT(smooth(mesh, 0).deviation.max, 1e-14);
