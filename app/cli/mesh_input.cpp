@@ -1,14 +1,23 @@
 #include "cli/mesh_input.h"
 
 #include "cli/console.h"
-#include "io/mesh_file.h"
 
 namespace isorelax::cli {
 
-TriangleMesh read_input(Console& console, const std::string& path) {
+MeshFile read_input_file(Console& console, const std::string& path) {
   MeshFile file = read_mesh(path);
   for (const std::string& message : file.messages) console.message(path + ": " + message);
-  return std::move(file.mesh);
+  return file;
+}
+
+TriangleMesh read_input(Console& console, const std::string& path) {
+  return std::move(read_input_file(console, path).mesh);
+}
+
+WriteOptions write_like(const MeshFile& input, const std::string& path) {
+  WriteOptions options;
+  if (format_of_extension(path) == input.format) options.encoding = input.encoding;
+  return options;
 }
 
 }  // namespace isorelax::cli

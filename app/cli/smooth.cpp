@@ -117,13 +117,15 @@ class SmoothCommand : public Command {
     if (solver_ != "jacobi") throw UsageError("--solver " + solver_ + ": expected jacobi");
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
-    TriangleMesh mesh = read_input(console, input_);
+    MeshFile file = read_input_file(console, input_);
+    TriangleMesh& mesh = file.mesh;
     // Before the long work, not after it.
     check_writable(output_);
     if (!report_.empty()) check_writable(report_);
     const Outcome outcome = smooth(console, mesh);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
-    for (const std::string& message : write_mesh(output_, mesh)) console.message(output_ + ": " + message);
+    for (const std::string& message : write_mesh(output_, mesh, write_like(file, output_)))
+      console.message(output_ + ": " + message);
     if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
     console.message(cli::summary(outcome));
     console.message("distance from the input surface " + number_text(outcome.deviation.max) + " at most, " +

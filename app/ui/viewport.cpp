@@ -54,7 +54,23 @@ void draw_welcome(const Ui& ui, const Rect& rect) {
   }
 }
 
-// The newest error or warning stays over the viewport until it is dismissed.
+/// The newest error, or the warnings that came together, each on its line.
+std::string notice_text(const Ui& ui, const model::Message& newest) {
+  if (newest.kind == model::MessageKind::error) return newest.text;
+  static constexpr unsigned kMostLines = 6;
+  const auto& messages = ui.session.messages;
+  std::string text;
+  unsigned lines = 0;
+  for (auto m = messages.rbegin(); m != messages.rend() && lines < kMostLines; ++m) {
+    if (m->number > newest.number || m->kind == model::MessageKind::info) continue;
+    if (m->number <= ui.state.dismissed_message || m->kind == model::MessageKind::error) break;
+    text = lines == 0 ? m->text : m->text + "\n" + text;
+    ++lines;
+  }
+  return text;
+}
+
+// The newest error or the warnings stay over the viewport until they are dismissed.
 void draw_notice(const Ui& ui, const Rect& rect) {
   const auto& messages = ui.session.messages;
   const auto found = std::find_if(messages.rbegin(), messages.rend(),
@@ -78,7 +94,7 @@ void draw_notice(const Ui& ui, const Rect& rect) {
   if (button(ui, "dismiss", "", {.icon = Icon::close, .look = ButtonLook::quiet, .height = ui.px(22)}))
     ui.state.dismissed_message = found->number;
   ImGui::PushTextWrapPos(width - ui.px(16));
-  ImGui::TextUnformatted(found->text.c_str());
+  ImGui::TextUnformatted(notice_text(ui, *found).c_str());
   ImGui::PopTextWrapPos();
   const ImVec2 low = ImGui::GetWindowPos();
   const ImVec2 size = ImGui::GetWindowSize();

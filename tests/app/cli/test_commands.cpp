@@ -60,6 +60,23 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   EXPECT_EQ(run_program(smooth + " --max-deviation inf").status, 0);
 }
 
+TEST(SmoothCommand, LeavesTextFilesText) {
+  const Workspace workspace;
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 0.1 0\n3 0 1 2\n";
+  const std::string copy = workspace.path("copy.ply");
+  const std::string back = workspace.path("back.stl");
+  ASSERT_EQ(run_program("smooth --iterations 0 " + workspace.write("t.ply", ply) + " -o " + copy).status, 0);
+  EXPECT_EQ(contents(copy), ply);
+  const std::string stl = workspace.write(
+      "t.stl",
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0.1 0\nendloop\n"
+      "endfacet\nendsolid\n");
+  ASSERT_EQ(run_program("smooth --iterations 0 " + stl + " -o " + back).status, 0);
+  EXPECT_NE(contents(back).find("vertex 0 0.1 0"), std::string::npos) << contents(back);
+}
+
 TEST(SmoothCommand, NamesTheLineOfAVertexThatCannotBePinned) {
   const Workspace workspace;
   const std::string pins = workspace.write("pins.txt", "0\n7\n");
