@@ -6,7 +6,8 @@ namespace isorelax::cli {
 
 MeshFile read_input_file(Console& console, const std::string& path) {
   MeshFile file = read_mesh(path);
-  for (const std::string& message : file.messages) console.message(path + ": " + message);
+  const std::string prefix = path + ": ";
+  for (const std::string& message : file.messages) console.message(prefix + message);
   return file;
 }
 

@@ -64,7 +64,8 @@ std::string notice_text(const Ui& ui, const model::Message& newest) {
   for (auto m = messages.rbegin(); m != messages.rend() && lines < kMostLines; ++m) {
     if (m->number > newest.number || m->kind == model::MessageKind::info) continue;
     if (m->number <= ui.state.dismissed_message || m->kind == model::MessageKind::error) break;
-    text = lines == 0 ? m->text : m->text + "\n" + text;
+    if (lines > 0) text.insert(0, "\n");
+    text.insert(0, m->text);
     ++lines;
   }
   return text;
