@@ -64,6 +64,14 @@ std::string summary(const Outcome& outcome) {
   return text;
 }
 
+Solver parse_solver(const std::string& text) {
+  if (text == "auto") return Solver::automatic;
+  if (text == "jacobi") return Solver::jacobi;
+  if (text == "newton") return Solver::newton;
+  if (text == "lbfgs") return Solver::lbfgs;
+  throw UsageError("--solver " + text + ": expected auto, jacobi, newton or lbfgs");
+}
+
 class SmoothCommand : public Command {
  public:
   [[nodiscard]] std::string name() const override { return "smooth"; }
@@ -95,7 +103,9 @@ class SmoothCommand : public Command {
     app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
         ->required()
         ->type_name("OUT");
-    app.add_option("--solver", solver_, "jacobi: the paper's step")->type_name("SOLVER");
+    app.add_option("--solver", solver_,
+                   "jacobi (the paper's step, default), newton, lbfgs, or auto: Newton, then L-BFGS")
+        ->type_name("SOLVER");
     declare_problem(app, problem_);
     app.add_option("--relaxation", jacobi_.relaxation, "Factor on the Jacobi step (default 0.9)")
         ->type_name("W")
@@ -114,7 +124,7 @@ class SmoothCommand : public Command {
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
-    if (solver_ != "jacobi") throw UsageError("--solver " + solver_ + ": expected jacobi");
+    const Solver solver = parse_solver(solver_);
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
     MeshFile file = read_input_file(console, input_);
@@ -122,7 +132,7 @@ class SmoothCommand : public Command {
     // Before the long work, not after it.
     check_writable(output_);
     if (!report_.empty()) check_writable(report_);
-    const Outcome outcome = smooth(console, mesh);
+    const Outcome outcome = smooth(console, mesh, solver);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
     for (const std::string& message : write_mesh(output_, mesh, write_like(file, output_)))
       console.message(output_ + ": " + message);
@@ -139,7 +149,11 @@ class SmoothCommand : public Command {
   }
 
  private:
-  Outcome smooth(Console& console, TriangleMesh& mesh) const {
+  [[nodiscard]] std::unique_ptr<Smoother> make_solver(const SmoothingProblem& problem, Solver solver) const {
+    return solver == Solver::jacobi ? make_jacobi(problem, jacobi_) : make_smoother(problem, solver);
+  }
+
+  Outcome smooth(Console& console, TriangleMesh& mesh, Solver solver) const {
     const ProblemOptions options = parse_problem(console, problem_, mesh.vertex_count());
     const Topology topology(mesh.triangles, mesh.vertex_count());
     const auto measure = [&] {
@@ -156,7 +170,7 @@ class SmoothCommand : public Command {
       };
       static_cast<BoundedResult&>(outcome) = run_bounded(
           mesh.positions, mesh.triangles, options,
-          [&](const SmoothingProblem& problem) { return make_jacobi(problem, jacobi_); }, run_, limit_, show);
+          [&](const SmoothingProblem& problem) { return make_solver(problem, solver); }, run_, limit_, show);
     } catch (const MeshError& error) {  // gets the name of its file
       throw MeshError(input_ + ": " + error.what());
     }

@@ -8,11 +8,17 @@
 namespace isorelax {
 namespace {
 
+/// Largest move, in mean edges, of a mesh that may count as converged by its gradient.
+constexpr double kSettled = 1e-3;
+
 /// The stop that the last record asks for, if any.
 std::optional<StopReason> stop_after(const StepRecord& record, const RunResult& result,
                                      const RunOptions& options) {
   if (!(options.tolerance > 0)) return std::nullopt;
-  if (result.gradient_ratio <= options.tolerance) return StopReason::gradient;
+  // Slivers at the start make the first gradient huge: a small ratio alone says little while vertices still
+  // move.
+  if (result.gradient_ratio <= options.tolerance && result.relative_move <= kSettled)
+    return StopReason::gradient;
   if (record.moved == 0) return record.energy_passes > 0 ? StopReason::stalled : StopReason::movement;
   if (result.relative_move <= options.tolerance) return StopReason::movement;
   if (result.energy_change <= options.tolerance * 1e-3) return StopReason::energy;

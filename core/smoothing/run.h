@@ -31,6 +31,40 @@ struct JacobiOptions {
 /// reference to the problem.
 std::unique_ptr<Smoother> make_jacobi(const SmoothingProblem& problem, const JacobiOptions& options = {});
 
+/// Options of the block-Jacobi Newton step.
+struct NewtonOptions {
+  /// Factor on each vertex' own Newton step: at 1 neighbours that move at once overshoot.
+  double relaxation = 0.7;
+  RecordDetail detail = RecordDetail::vertices;
+};
+
+/// Every vertex takes a damped Newton step of its own in its tangent space, with the second derivatives of
+/// its triangles made positive definite (method Sec. 6). Keeps a reference to the problem.
+std::unique_ptr<Smoother> make_newton(const SmoothingProblem& problem, const NewtonOptions& options = {});
+
+/// Options of L-BFGS.
+struct LbfgsOptions {
+  /// Pairs of moves and gradient changes that are remembered.
+  unsigned memory = 10;
+  RecordDetail detail = RecordDetail::vertices;
+};
+
+/// Limited-memory BFGS over all free tangent coordinates, preconditioned by the Newton blocks: converges. Its
+/// steps depend on the steps before; at positions it did not lead to it starts afresh. Keeps a reference to
+/// the problem.
+std::unique_ptr<Smoother> make_lbfgs(const SmoothingProblem& problem, const LbfgsOptions& options = {});
+
+/// Which way of stepping.
+enum class Solver : std::uint8_t {
+  automatic,  ///< Newton steps while they pay, then L-BFGS to convergence
+  jacobi,     ///< the paper's
+  newton,
+  lbfgs,
+};
+/// The solver with its default options. Keeps a reference to the problem.
+std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver solver,
+                                        RecordDetail detail = RecordDetail::vertices);
+
 /// Why a run ended.
 enum class StopReason : std::uint8_t {
   iterations,  ///< the allowed number was done

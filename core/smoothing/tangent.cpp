@@ -15,34 +15,22 @@ Vec3 line_direction(const SmoothingProblem& problem, std::span<const Vec3> posit
 
 }  // namespace
 
-std::array<Vec3, kLanes> tangent_parts(const SmoothingProblem& problem, std::span<const Vec3> positions,
-                                       Index first, std::span<const VertexSums> sums) {
-  std::array<Vec3, kLanes> normals;
+std::array<Vec3, kLanes> tangent_axes(const SmoothingProblem& problem, std::span<const Vec3> positions,
+                                      Index first, std::span<const VertexSums> sums) {
+  std::array<Vec3, kLanes> axes;
   if (problem.plane_normal) {
-    normals.fill(*problem.plane_normal);
+    axes.fill(*problem.plane_normal);
   } else {
     CovarianceBatch batch{};
     for (unsigned i = 0; i < sums.size(); ++i) batch.set(i, sums[i].covariance);
-    normals = dominant_eigenvectors(batch);
+    axes = dominant_eigenvectors(batch);
   }
-  std::array<Vec3, kLanes> parts;
   for (unsigned i = 0; i < sums.size(); ++i) {
-    const Vec3& g = sums[i].gradient;
-    switch (problem.mobility[first + i]) {
-      case Mobility::none:
-        parts[i].setZero();
-        break;
-      case Mobility::line: {
-        const Vec3 along = line_direction(problem, positions, first + i, sums[i].covariance);
-        parts[i] = along * along.dot(g);
-        break;
-      }
-      case Mobility::plane:
-        parts[i] = g - normals[i] * normals[i].dot(g);
-        break;
+    if (problem.mobility[first + i] == Mobility::line) {
+      axes[i] = line_direction(problem, positions, first + i, sums[i].covariance);
     }
   }
-  return parts;
+  return axes;
 }
 
 }  // namespace isorelax

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "smoothing/fold_control.h"
+#include "smoothing/objective.h"
+#include "smoothing/run.h"
+
+namespace isorelax {
+
+/// What all steps share: a proposed tangent move for every vertex goes through the asynchronous fold control
+/// and the energy guard into a record. Those who derive say which moves to propose.
+class GuardedSmoother : public Smoother {
+ public:
+  void step(std::span<const Vec3> positions, StepRecord& record) final;
+
+ protected:
+  GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail);
+
+  /// Fills gradient and displacement (zero where nothing may or should move) of every vertex, and adds to
+  /// record.limits. Returns the 2-norm of the tangent gradient. `here` is evaluated at `positions`.
+  virtual double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) = 0;
+  /// Whether a rising energy cuts back all vertices alike from the start, which keeps the direction.
+  [[nodiscard]] virtual bool cuts_all_alike() const { return false; }
+
+  /// The move that is not worth making, in length units.
+  [[nodiscard]] double smallest_move() const;
+
+  const SmoothingProblem& problem_;
+
+ private:
+  void prepare(StepRecord& record) const;
+  void record_triangles(StepRecord& record) const;
+  void guard_energy(StepRecord& record);
+  [[nodiscard]] std::vector<Index> vertices_where_energy_rose() const;
+  void finish(StepRecord& record) const;
+
+  RecordDetail detail_;
+  Objective here_, there_;  // at the step's positions, and at the last trial
+  Trial trial_;
+  FoldControl fold_;
+};
+
+}  // namespace isorelax
