@@ -79,7 +79,8 @@ class SmoothCommand : public Command {
     return "Move the vertices of a mesh so that its triangles get better";
   }
   [[nodiscard]] std::string notes() const override {
-    return "Minimises the sum of E = (1 - mu) K + mu S over the triangles: K = kappa + 1/kappa measures "
+    return "Minimises the sum of E^p, E = (1 - mu) K + mu S, over the triangles: K = kappa + 1/kappa "
+           "measures "
            "angles,\n"
            "S = sqrt(det) + 1/sqrt(det) areas, both against the reference triangle. Vertices move in the "
            "tangent\n"
@@ -104,7 +105,7 @@ class SmoothCommand : public Command {
         ->required()
         ->type_name("OUT");
     app.add_option("--solver", solver_,
-                   "jacobi (the paper's step, default), newton, lbfgs, or auto: Newton, then L-BFGS")
+                   "auto (default: Newton steps, then L-BFGS), jacobi (the paper's step), newton or lbfgs")
         ->type_name("SOLVER");
     declare_problem(app, problem_);
     app.add_option("--relaxation", jacobi_.relaxation, "Factor on the Jacobi step (default 0.9)")
@@ -179,7 +180,7 @@ class SmoothCommand : public Command {
   }
 
   std::string input_, output_, report_;
-  std::string solver_ = "jacobi";
+  std::string solver_ = "auto";
   ProblemSpec problem_;
   JacobiOptions jacobi_;
   RunOptions run_;

@@ -70,9 +70,10 @@ std::string command_line(const Session& session) {
   auto output = session.document->path;
   output.replace_filename(output.stem().string() + "-smooth" + output.extension().string());
   return "isorelax smooth " + quoted(session.document->path.string()) + " -o " + quoted(output.string()) +
+         " --solver " + std::string(solver_option(s.solver)) + " --exponent " + number(s.exponent) +
          " --mu " + number(s.mu_a) + " --reference " + reference_option(s) + " --boundary " +
          std::string(boundary_option(s.boundary)) + " --features " + features_option(s) + " --iterations " +
-         std::to_string(s.iterations) + " --tolerance " + number(s.tolerance);
+         std::to_string(s.iterations) + " --tolerance " + number(s.tolerance) + " --max-deviation inf";
 }
 
 }  // namespace isorelax::model

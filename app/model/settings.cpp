@@ -6,9 +6,23 @@
 namespace isorelax::model {
 
 bool same_energy(const SmoothingSettings& a, const SmoothingSettings& b) {
-  return a.mu_a == b.mu_a && a.reference == b.reference &&
+  return a.mu_a == b.mu_a && a.exponent == b.exponent && a.reference == b.reference &&
          (a.reference != ReferenceKind::edge_length || a.edge_length == b.edge_length) &&
          (a.reference != ReferenceKind::file || a.reference_file == b.reference_file);
+}
+
+std::string_view solver_option(Solver solver) {
+  switch (solver) {
+    case Solver::automatic:
+      return "auto";
+    case Solver::jacobi:
+      return "jacobi";
+    case Solver::newton:
+      return "newton";
+    case Solver::lbfgs:
+      return "lbfgs";
+  }
+  return "";
 }
 
 std::string_view title(Coloring coloring) {

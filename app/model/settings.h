@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "smoothing/problem.h"
+#include "smoothing/run.h"
 
 namespace isorelax::model {
 
@@ -18,7 +18,9 @@ enum class FeatureRule : std::uint8_t { automatic, none, angle };
 
 /// What a run does. Every field has an option of `isorelax smooth`.
 struct SmoothingSettings {
-  double mu_a = 0;  ///< weight of the area term, 0..1; the shape term has 1 - mu_a
+  Solver solver = Solver::automatic;
+  double exponent = 1;  ///< p in the sum of E^p, 1..32
+  double mu_a = 0;      ///< weight of the area term, 0..1; the shape term has 1 - mu_a
   ReferenceKind reference = ReferenceKind::mean_area;
   double edge_length = 1;      ///< length units; used with ReferenceKind::edge_length
   std::string reference_file;  ///< used with ReferenceKind::file
@@ -70,6 +72,8 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
+/// "auto", "jacobi", "newton", "lbfgs": as on the command line.
+[[nodiscard]] std::string_view solver_option(Solver solver);
 /// "Min angle", "Energy", ...: a title for people.
 [[nodiscard]] std::string_view title(Coloring coloring);
 /// "deg" for angles, "x mean" for areas, empty where there is none.

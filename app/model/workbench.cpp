@@ -33,6 +33,7 @@ ReferenceChoice reference_choice(const SmoothingSettings& settings) {
 ProblemOptions problem_options(const SmoothingSettings& settings) {
   ProblemOptions options;
   options.weights = EnergyWeights::from_mu(settings.mu_a);
+  options.exponent = settings.exponent;
   options.reference = reference_choice(settings);
   options.boundary = settings.boundary;
   switch (settings.features) {
@@ -55,7 +56,7 @@ const SmoothingProblem& Workbench::problem(const DocumentPtr& document, const Sm
   const TriangleMesh& mesh = document->mesh();
   problem_ = std::make_unique<SmoothingProblem>(
       make_problem(mesh.positions, mesh.triangles, problem_options(settings)));
-  smoother_ = make_jacobi(*problem_);
+  smoother_ = make_smoother(*problem_, settings.solver);
   document_ = document;
   settings_ = problem_part(settings);
   return *problem_;

@@ -19,6 +19,33 @@ void end_edit_after_item(const Ui& ui) {
   if (ImGui::IsItemDeactivated()) ui.command(model::EndEdit{});
 }
 
+void draw_solver(const Ui& ui) {
+  constexpr std::array<std::string_view, 4> kSolvers{"Automatic", "Jacobi (paper)", "Newton", "L-BFGS"};
+  constexpr const char* kTip =
+      "How each step is found: the paper's Jacobi step, Newton steps of each vertex, L-BFGS over all of "
+      "them, or "
+      "Newton followed by L-BFGS.";
+  SmoothingSettings settings = ui.session.smoothing;
+  row_label(ui, "Solver", kTip);
+  const int solver = combo(ui, "solver", kSolvers, static_cast<int>(settings.solver));
+  tooltip(ui, kTip);
+  if (solver >= 0) {
+    settings.solver = static_cast<Solver>(solver);
+    change(ui, settings, "Solver");
+  }
+  constexpr std::array<std::string_view, 5> kLabels{"1", "2", "4", "8", "16"};
+  constexpr std::array kExponents{1.0, 2.0, 4.0, 8.0, 16.0};
+  row_label(
+      ui, "Exponent",
+      "The power p in the sum of E^p: 1 treats all triangles alike, larger powers favour the worst ones.");
+  const auto found = std::ranges::find(kExponents, settings.exponent);
+  const int exponent = segmented(ui, "exponent", kLabels, static_cast<int>(found - kExponents.begin()),
+                                 ImGui::GetContentRegionAvail().x);
+  if (exponent < 0) return;
+  settings.exponent = kExponents[static_cast<std::size_t>(exponent)];
+  change(ui, settings, "Exponent");
+}
+
 void draw_mu(const Ui& ui) {
   constexpr const char* kTip =
       "Weight of the area term, 0 to 1; the shape term has the rest. 0 makes good angles and lets areas "
@@ -27,7 +54,7 @@ void draw_mu(const Ui& ui) {
   SmoothingSettings settings = ui.session.smoothing;
   auto mu = static_cast<float>(settings.mu_a);
   row_label(ui, "Area \xCE\xBC\xE2\x82\x90", kTip);
-  if (ImGui::SliderFloat("##mu", &mu, 0, 0.95F, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+  if (ImGui::SliderFloat("##mu", &mu, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
     // The number that is shown is the number that is used.
     settings.mu_a = std::round(100.0 * static_cast<double>(mu)) / 100;
     change(ui, settings, "\xCE\xBC\xE2\x82\x90");
@@ -224,6 +251,7 @@ void draw_settings_panel(const Ui& ui, const Rect& rect) {
   begin_panel("settings", rect);
   heading(ui, "SMOOTHING");
   ImGui::BeginDisabled(ui.session.is_running());
+  draw_solver(ui);
   draw_mu(ui);
   draw_reference(ui);
   draw_boundary(ui);

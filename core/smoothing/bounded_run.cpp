@@ -6,6 +6,8 @@
 
 #include "quality/inverted.h"
 
+#include "smoothing/objective.h"
+
 namespace isorelax {
 namespace {
 
@@ -47,7 +49,43 @@ void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::si
   }
 }
 
+/// A stage that only leads to the next one need not be exact.
+constexpr double kStageTolerance = 1e-4;
+
 }  // namespace
+
+RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
+                                std::span<Vec3> positions, const RunOptions& options,
+                                const StepObserver& observer) {
+  if (problem.exponent <= 2) return run(*make_smoother(problem), problem, positions, options, observer);
+  Objective objective(problem);
+  const StepTotals before = objective.evaluate(positions);
+  unsigned done = 0;
+  double seconds = 0;
+  const auto observe = [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+    return !observer || observer(done + iteration, record, moved);
+  };
+  RunResult result;
+  for (double exponent = 2;; exponent *= 2) {
+    SmoothingProblem stage = problem;
+    stage.exponent = std::min(exponent, problem.exponent);
+    const bool last = stage.exponent == problem.exponent;
+    RunOptions stage_options = options;
+    stage_options.iterations = options.iterations - done;
+    if (!last) stage_options.tolerance = std::max(options.tolerance, kStageTolerance);
+    result = run(*make_smoother(stage), stage, positions, stage_options, observe);
+    done += result.iterations;
+    seconds += result.seconds;
+    if (last || done >= options.iterations || result.stopped == StopReason::cancelled ||
+        result.stopped == StopReason::fixed)
+      break;
+  }
+  result.iterations = done;
+  result.seconds = seconds;
+  result.before = before;
+  result.after = objective.evaluate(positions);
+  return result;
+}
 
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
@@ -61,11 +99,12 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
     BoundedResult result;
     result.notes = problem.notes;
     result.limits = count_limits(problem.fixed_limits);
-    result.run = run(*make_smoother(problem), problem, positions, run_options,
-                     [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
-                       result.limits = count_limits(record.limits);
-                       return !observer || observer(iteration, record, moved);
-                     });
+    result.run =
+        run_with_continuation(problem, make_smoother, positions, run_options,
+                              [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+                                result.limits = count_limits(record.limits);
+                                return !observer || observer(iteration, record, moved);
+                              });
     const DeviationByTriangle deviation =
         measure_deviation_by_triangle(original, positions, triangles, problem.topology, options.threads);
     result.deviation = deviation.whole;

@@ -24,6 +24,13 @@ struct BoundedResult {
   std::vector<std::string> notes;
 };
 
+/// Runs with the problem's exponent. One above 2 is reached in steps, 2, 4, 8, ..., each started where the
+/// one before ended: high powers alone are ruled by the worst triangle (method Sec. 6). All stages share
+/// options.iterations; the totals are those of the final exponent.
+RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
+                                std::span<Vec3> positions, const RunOptions& options,
+                                const StepObserver& observer = {});
+
 /// Smooths a mesh in place and measures how far it is from where it was. Where a triangle is farther than the
 /// limit allows, its vertices are held where they were and the run is done again from the start, until the
 /// limit holds everywhere; in the end it always does, if with everything held. Likewise where a triangle lies

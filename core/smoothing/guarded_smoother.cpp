@@ -9,9 +9,12 @@
 namespace isorelax {
 namespace {
 
-/// Rounds in which only vertices whose own surroundings got worse are cut back, then rounds that cut all.
-constexpr unsigned kLocalGuardRounds = 6;
-constexpr unsigned kGlobalGuardRounds = 40;
+/// Rounds of the energy guard. A direction for all is first shortened as a whole; then only vertices around
+/// which the energy rose are cut back; then the vertices of every triangle that got worse; at last those are
+/// stopped.
+constexpr unsigned kAlikeRounds = 4;
+constexpr unsigned kLocalRounds = 6;
+constexpr unsigned kTriangleRounds = 4;
 
 /// A move below this share of the mean edge length is not worth making.
 constexpr double kConvergedMove = 1e-12;
@@ -61,24 +64,37 @@ void GuardedSmoother::record_triangles(StepRecord& record) const {
   for (Index t = 0; t < problem_.triangle_count(); ++t) record.energy[t] = here_.energy(t);
 }
 
-/// Accepts the step only if the energy does not rise: first cuts back the vertices around which it rose,
-/// then all.
+/// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,
+/// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
   record.after = there_.evaluate(trial_.to());
+  const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
   for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
     ++record.energy_passes;
-    if (round < kLocalGuardRounds && !cuts_all_alike()) {
+    if (round < local) {
+      for (Index v = 0; v < problem_.vertex_count(); ++v) trial_.cut(record, v, 0.5, kLimitEnergy);
+    } else if (round < local + kLocalRounds) {
       for (const Index v : vertices_where_energy_rose()) trial_.cut(record, v, 0.5, kLimitEnergy);
     } else {
-      const bool give_up = round >= kLocalGuardRounds + kGlobalGuardRounds;
-      for (Index v = 0; v < problem_.vertex_count(); ++v)
-        trial_.cut(record, v, give_up ? 0.0 : 0.5, kLimitEnergy);
+      const double factor = round < local + kLocalRounds + kTriangleRounds ? 0.25 : 0.0;
+      for (const Index v : vertices_of_worse_triangles()) trial_.cut(record, v, factor, kLimitEnergy);
     }
     std::vector<Index> changed = trial_.take_touched();
     const std::vector<Index> unfolded = fold_.limit(trial_, record, changed);
     changed.insert(changed.end(), unfolded.begin(), unfolded.end());
     record.after = there_.update(trial_.to(), changed);
   }
+}
+
+std::vector<Index> GuardedSmoother::vertices_of_worse_triangles() const {
+  std::vector<Index> vertices;
+  for (Index t = 0; t < problem_.triangle_count(); ++t) {
+    if (there_.powered()[t] <= here_.powered()[t]) continue;
+    vertices.insert(vertices.end(), problem_.triangles[t].begin(), problem_.triangles[t].end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 /// Vertices whose own triangles together got worse from here to there.

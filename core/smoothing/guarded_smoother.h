@@ -31,6 +31,7 @@ class GuardedSmoother : public Smoother {
   void record_triangles(StepRecord& record) const;
   void guard_energy(StepRecord& record);
   [[nodiscard]] std::vector<Index> vertices_where_energy_rose() const;
+  [[nodiscard]] std::vector<Index> vertices_of_worse_triangles() const;
   void finish(StepRecord& record) const;
 
   RecordDetail detail_;

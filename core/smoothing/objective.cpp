@@ -14,7 +14,8 @@ struct EnergyBatch {
   Lanes shape, area, powered;
   Lanes g0x, g0y, g0z, g1x, g1y, g1z;
   Lanes mx, my, mz;
-  Lanes s;  // 2 w_s / D2 times the derivative of E^p
+  Lanes s;               // 2 w_s / D2 times the derivative of E^p
+  Lanes area_stiffness;  // what stands in for Eq. 9's denominator where there is no shape term
 };
 
 /// First half of the formulas of `triangle_energy`, for eight triangles at once: values, N in g0, and in `t`
@@ -22,6 +23,9 @@ struct EnergyBatch {
 template <bool kEquilateral>
 [[gnu::always_inline]] inline void values(const EdgeBatch& __restrict e, const ReferenceBatch& __restrict r,
                                           EnergyWeights w, EnergyBatch& __restrict out, Lanes& __restrict t) {
+  // The convex part of S'' |l|^2, with the mean of the three edges (method Sec. 5: Eq. 9 itself is undefined
+  // there).
+  const double area_only = w.shape > 0 ? 0 : 0.25 * w.area;
   for (unsigned i = 0; i < kLanes; ++i) {
     const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
     const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
@@ -41,6 +45,7 @@ template <bool kEquilateral>
     out.shape.at[i] = shape;
     out.area.at[i] = root + inverse_root;
     out.s.at[i] = 2 * w.shape * inverse;
+    out.area_stiffness.at[i] = area_only * inverse_root * inverse * inverse * (aa + bb + cc);
     t.at[i] = inverse * inverse * (0.5 * w.area * (root - inverse_root) - w.shape * shape);
     out.mx.at[i] = nx * scale;
     out.my.at[i] = ny * scale;
@@ -79,6 +84,7 @@ template <bool kEquilateral>
     const double s1 = s * (kEquilateral ? kEquilateralCot : r.cot1.at[i]);
     const double s2 = s * (kEquilateral ? kEquilateralCot : r.cot2.at[i]);
     out.s.at[i] = s;
+    out.area_stiffness.at[i] *= factor;
     out.g0x.at[i] = tt * (ny * cz - nz * cy) - s1 * bx - s2 * ax;
     out.g0y.at[i] = tt * (nz * cx - nx * cz) - s1 * by - s2 * ay;
     out.g0z.at[i] = tt * (nx * cy - ny * cx) - s1 * bz - s2 * az;
@@ -137,14 +143,17 @@ void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& 
     shape_[t] = out.shape.at[i];
     area_[t] = out.area.at[i];
     powered_[t] = out.powered.at[i];
-    states_[t] = {
-        out.g0x.at[i], out.g0y.at[i], out.g0z.at[i], out.g1x.at[i], out.g1y.at[i],
-        out.g1z.at[i], out.mx.at[i],  out.my.at[i],  out.mz.at[i],  2 * kEquilateralCot * out.s.at[i]};
+    states_[t] = {out.g0x.at[i], out.g0y.at[i],
+                  out.g0z.at[i], out.g1x.at[i],
+                  out.g1y.at[i], out.g1z.at[i],
+                  out.mx.at[i],  out.my.at[i],
+                  out.mz.at[i],  2 * kEquilateralCot * out.s.at[i] + out.area_stiffness.at[i]};
     if (corner_stiffness_.empty()) continue;
     const double s = out.s.at[i];
-    corner_stiffness_[t] = {s * (reference.cot1.at[i] + reference.cot2.at[i]),
-                            s * (reference.cot2.at[i] + reference.cot0.at[i]),
-                            s * (reference.cot0.at[i] + reference.cot1.at[i])};
+    const double k = out.area_stiffness.at[i];
+    corner_stiffness_[t] = {s * (reference.cot1.at[i] + reference.cot2.at[i]) + k,
+                            s * (reference.cot2.at[i] + reference.cot0.at[i]) + k,
+                            s * (reference.cot0.at[i] + reference.cot1.at[i]) + k};
   }
 }
 

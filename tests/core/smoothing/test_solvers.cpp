@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include "generate/generate.h"
+#include "quality/report.h"
+#include "smoothing/bounded_run.h"
+
+namespace isorelax {
+namespace {
+
+constexpr std::array kConverging = {Solver::newton, Solver::lbfgs, Solver::automatic};
+
+RunResult smooth(TriangleMesh& mesh, Solver solver, const ProblemOptions& options,
+                 const RunOptions& run_options) {
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, options);
+  return run_with_continuation(
+      problem, [&](const SmoothingProblem& stage) { return make_smoother(stage, solver); }, mesh.positions,
+      run_options);
+}
+
+TEST(Solvers, NeverRaiseTheEnergyAndNeverTurnATriangle) {
+  for (const Solver solver : kConverging) {
+    for (const ShapeKind kind : {ShapeKind::random_square, ShapeKind::random_sphere, ShapeKind::part}) {
+      TriangleMesh mesh = generate(kind, {.seed = 5, .triangles = 1000});
+      const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {.exponent = 2});
+      const auto smoother = make_smoother(problem, solver);
+      StepRecord record;
+      for (int i = 0; i < 30; ++i) {
+        const std::vector<Vec3> before = mesh.positions;
+        smoother->step(before, record);
+        apply_step(record, mesh.positions);
+        ASSERT_LE(record.after.energy, record.before.energy) << "step " << i;
+        for (const Triangle& t : problem.triangles) {
+          const Vec3 was = area_vector(before[t[0]], before[t[1]], before[t[2]]);
+          const Vec3 is = area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+          ASSERT_GT(was.dot(is), 0) << "step " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(Solvers, ConvergeToTheSameMinimum) {
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 3, .triangles = 454});
+  std::vector<double> energies;
+  for (const Solver solver : kConverging) {
+    TriangleMesh copy = mesh;
+    energies.push_back(
+        smooth(copy, solver, {.exponent = 2}, {.iterations = 2000, .tolerance = 1e-9}).after.energy);
+  }
+  EXPECT_NEAR(energies[0], energies[1], 1e-3 * energies[0]);
+  EXPECT_NEAR(energies[1], energies[2], 1e-5 * energies[1]);
+}
+
+TEST(Solvers, TwentyNewtonSweepsLeaveNothingUnder15OrOver145Degrees) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = seed, .triangles = 2126});
+    smooth(mesh, Solver::newton, {.exponent = 2}, {.iterations = 20, .tolerance = 0});
+    const QualityReport after = measure_quality(mesh);
+    EXPECT_GT(after.min_angle_deg, 15) << "seed " << seed;
+    EXPECT_LT(after.max_angle_deg, 145) << "seed " << seed;
+  }
+}
+
+TEST(Solvers, AreasAloneCanBeEvenedOut) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 2, .triangles = 1000});
+  smooth(mesh, Solver::automatic, {.weights = EnergyWeights::from_mu(1)}, {.iterations = 300});
+  EXPECT_LT(measure_quality(mesh).area_std_over_mean, 0.15);
+}
+
+TEST(Solvers, AHighExponentLowersTheLargestAngle) {
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 7, .triangles = 454});
+  TriangleMesh low = mesh;
+  TriangleMesh high = mesh;
+  smooth(low, Solver::automatic, {.exponent = 1}, {.iterations = 500});
+  smooth(high, Solver::automatic, {.exponent = 16}, {.iterations = 1500});
+  EXPECT_LT(measure_quality(high).max_angle_deg, measure_quality(low).max_angle_deg - 3);
+}
+
+TEST(Solvers, AreTheSameForAnyNumberOfThreads) {
+  for (const Solver solver : kConverging) {
+    const TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 4, .vertices = 3000});
+    std::vector<std::vector<Vec3>> results;
+    for (const unsigned threads : {1U, 2U, 5U}) {
+      TriangleMesh copy = mesh;
+      smooth(copy, solver, {.threads = threads}, {.iterations = 12});
+      results.push_back(std::move(copy.positions));
+    }
+    EXPECT_EQ(results[0], results[1]);
+    EXPECT_EQ(results[0], results[2]);
+  }
+}
+
+}  // namespace
+}  // namespace isorelax
