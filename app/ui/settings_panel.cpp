@@ -173,7 +173,7 @@ void draw_iterations(const Ui& ui) {
 void draw_run_buttons(const Ui& ui) {
   const model::Session& s = ui.session;
   const bool running = s.is_running();
-  const float height = ui.px(40);
+  const float height = ui.px(34);
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ui.px(8);
   ImGui::Dummy({0, ui.px(2)});

@@ -10,6 +10,9 @@ namespace {
 /// where the triangles are so large that the term is concave.
 constexpr double kLeastAreaCurvature = 0.05;
 
+/// E over its weights, 2 for the best triangle, from which a triangle counts as a sliver.
+constexpr double kSliverEnergy = 3;
+
 struct Powers {
   double first, second;  // derivatives of E^p with respect to E
 };
@@ -70,9 +73,13 @@ void NewtonBlock::add(const SmoothingProblem& problem, const Objective& here, st
   const double q1 = q.dot(t1_), q2 = q.dot(t2_);
   const double n1 = normal.dot(t1_), n2 = normal.dot(t2_);
   const double g1 = g.dot(t1_), g2 = g.dot(t2_);
-  h11_ += plane * (1 - n1 * n1) + 2 * mixed * q1 * u1 + along * u1 * u1 + p.second * g1 * g1;
-  h12_ += -plane * n1 * n2 + mixed * (q1 * u2 + q2 * u1) + along * u1 * u2 + p.second * g1 * g2;
-  h22_ += plane * (1 - n2 * n2) + 2 * mixed * q2 * u2 + along * u2 * u2 + p.second * g2 * g2;
+  // E^p grows like height^-p towards a sliver, and Newton's step on that is short. Without the g g^T part it
+  // opens slivers half as fast again; near the minimum, where the part damps, it is kept.
+  const double excess = here.energy(t) / (kSliverEnergy * (w.shape + w.area));
+  const double squared = p.second / (1 + excess * excess);
+  h11_ += plane * (1 - n1 * n1) + 2 * mixed * q1 * u1 + along * u1 * u1 + squared * g1 * g1;
+  h12_ += -plane * n1 * n2 + mixed * (q1 * u2 + q2 * u1) + along * u1 * u2 + squared * g1 * g2;
+  h22_ += plane * (1 - n2 * n2) + 2 * mixed * q2 * u2 + along * u2 * u2 + squared * g2 * g2;
 }
 
 Vec3 NewtonBlock::solve(const Vec3& g) const {
