@@ -115,9 +115,9 @@ class SmoothCommand : public Command {
     app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
         ->type_name("T")
         ->check(number_between(0, std::numeric_limits<double>::max()));
-    app.add_option(
-           "--max-deviation", limit_.max,
-           "Largest distance from the input surface, of its bounding-box diagonal (default 0.005; inf: any)")
+    app.add_option("--max-deviation", limit_.max,
+                   "Largest distance from the input surface, of its bounding-box diagonal (default 0.005, "
+                   "more where the mesh is coarse; inf: any)")
         ->type_name("D")
         ->check(number_between(0, std::numeric_limits<double>::infinity()));
     app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");

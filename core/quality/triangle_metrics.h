@@ -13,8 +13,9 @@ namespace isorelax {
 ///
 ///   shape            (l0^2 + l1^2 + l2^2) / (2 sqrt(3) A)     2 when equilateral, grows without bound
 ///   radius_ratio     2 r / R = 16 A^2 / (l0 l1 l2 (l0+l1+l2)) 1 when equilateral, 0 when degenerate
-///   scaled_jacobian  (2/sqrt(3)) 2 A / (product of the two longest edges) = (2/sqrt(3)) sin(min angle); 1 ..
-///   0 aspect_ratio     l_max (l0+l1+l2) / (4 sqrt(3) A)         1 when equilateral, grows without bound
+///   scaled_jacobian  (2/sqrt(3)) sin(min angle), that is (2/sqrt(3)) 2 A over the product of the two longest
+///                    edges                            1 when equilateral, 0 when degenerate
+///   aspect_ratio     l_max (l0+l1+l2) / (4 sqrt(3) A)  1 when equilateral, grows without bound
 ///
 /// `shape` is K of the near-isometry energy against the equilateral reference. The last three are the Verdict
 /// library's, except that Verdict gives the radius ratio upside down (R / 2r, 1 and more): here the worst

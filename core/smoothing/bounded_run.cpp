@@ -2,14 +2,35 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <numbers>
 
 #include "quality/inverted.h"
-
 #include "smoothing/objective.h"
+#include "surface/feature_edges.h"
 
 namespace isorelax {
 namespace {
+
+/// The limit for a mesh when nobody stated one; see DeviationLimit.
+double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                       const FeatureOptions& features) {
+  constexpr double kFine = 0.005;
+  constexpr double kRadians = std::numbers::pi / 180;
+  double sum = 0;
+  std::size_t count = 0;
+  Vec3 low = positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
+    if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
+    const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
+    if (turn >= features.ridge_angle_deg) continue;
+    const Triangle& t = problem.triangles[c / 3];
+    sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
+    ++count;
+  }
+  return count == 0 ? kFine : std::max(kFine, 0.5 * sum / (static_cast<double>(count) * (high - low).norm()));
+}
 
 /// Vertices of the triangles over the limit, sorted.
 std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span<const Triangle> triangles,
@@ -94,9 +115,12 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
   const std::vector<Vec3> original(positions.begin(), positions.end());
   ProblemOptions options = problem_options;
   std::optional<std::vector<Index>> inverted_before;
+  std::optional<double> largest = limit.max;
   for (;;) {
     const SmoothingProblem problem = make_problem(original, triangles, options);
+    if (!largest) largest = automatic_limit(original, problem, options.features);
     BoundedResult result;
+    result.deviation_limit = *largest;
     result.notes = problem.notes;
     result.limits = count_limits(problem.fixed_limits);
     result.run =
@@ -109,7 +133,7 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
         measure_deviation_by_triangle(original, positions, triangles, problem.topology, options.threads);
     result.deviation = deviation.whole;
     std::vector<Index> over;
-    if (deviation.whole.max > limit.max) over = vertices_over(deviation, triangles, limit.max);
+    if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
     const std::vector<Index> inverted =
         inverted_triangles(positions, triangles, problem.topology, options.threads);
     if (!inverted_before)

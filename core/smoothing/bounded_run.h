@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "smoothing/run.h"
 #include "surface/deviation.h"
 
@@ -7,8 +9,10 @@ namespace isorelax {
 
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
-  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit.
-  double max = 0.005;
+  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: 0.005, or
+  /// where the mesh is coarse half the mean of edge length times dihedral turn over its smooth edges: two
+  /// good meshes of one curved surface differ by the height of their chords.
+  std::optional<double> max;
 };
 
 /// Makes the smoother for a problem.
@@ -18,6 +22,7 @@ using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingP
 struct BoundedResult {
   RunResult run;
   Deviation deviation;
+  double deviation_limit = 0;  ///< the one that held, over the diagonal
   /// Limits of the last step, counted by bit.
   std::array<std::size_t, 8> limits{};
   /// The problem's notes, and what the limit held.

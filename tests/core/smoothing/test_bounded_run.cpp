@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "generate/generate.h"
+#include "quality/report.h"
 
 namespace isorelax {
 namespace {
@@ -46,6 +47,16 @@ TEST(BoundedRun, TellsTheEnergyOfAMeshInWhichNothingMayMove) {
   EXPECT_EQ(held.run.iterations, 0U);
   EXPECT_EQ(held.run.before.energy, moved.run.before.energy);
   EXPECT_EQ(held.run.after.energy, held.run.before.energy);
+}
+
+TEST(BoundedRun, ACoarseSphereIsNotFrozenByTheDefaultLimit) {
+  TriangleMesh mesh = generate(ShapeKind::sphere, {.vertices = 100});
+  const double before = measure_quality(mesh).mean_min_angle_deg;
+  const BoundedResult result = run_bounded(
+      mesh.positions, mesh.triangles, {},
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, {});
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, before + 3);
+  EXPECT_LE(result.deviation.max, result.deviation_limit);
 }
 
 TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
