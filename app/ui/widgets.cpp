@@ -138,7 +138,7 @@ void row_label(const Ui& ui, std::string_view label, std::string_view tip) {
 
 void tooltip(const Ui& ui, std::string_view text, std::string_view keys) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (ImGui::GetCurrentContext()->HoveredIdTimer < 0.5F && ImGui::GetItemID() != 0) return;
+  if (ImGui::GetCurrentContext()->HoveredIdTimer < kTooltipDelay && ImGui::GetItemID() != 0) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(8)});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(280));

@@ -56,6 +56,9 @@ int segmented(const Ui& ui, std::string_view name, std::span<const std::string_v
 /// Draws an icon of side `size` pixels around a centre.
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 center, float size, ImU32 color);
 
+/// Seconds that the pointer rests on a control before its tooltip appears.
+inline constexpr float kTooltipDelay = 0.5F;
+
 /// Small capitals over a group of controls, with a line above unless it is the first.
 void heading(const Ui& ui, std::string_view text);
 /// Begins a row: the label at the left, the next control takes the rest of the width.
