@@ -22,7 +22,7 @@ FILES_PER_UNIT = 12
 
 
 def read_commands(build, root):
-    """Triples (source, target, options): what belongs to one object file is left out of the options."""
+    """Triples (source, target, options): what belongs to one object file, and precompiled headers, are left out of the options."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = Path(entry["file"])
         if not source.is_relative_to(root) or source.is_relative_to(build):
@@ -35,9 +35,9 @@ def read_commands(build, root):
         for word in words[1:]:
             if skip:
                 skip = False
-            elif word in ("-o", "-MF", "-MT", "-MQ", "-c"):
+            elif word in ("-o", "-MF", "-MT", "-MQ", "-c", "-include"):
                 skip = True
-            elif word not in ("-MD", "-MMD"):
+            elif word not in ("-MD", "-MMD", "-Winvalid-pch"):
                 options.append(word)
         yield source, target, tuple(options)
 

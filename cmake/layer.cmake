@@ -20,20 +20,22 @@ if(ISORELAX_SANITIZE)
   target_link_options(isorelax_build_flags INTERFACE -fsanitize=${ISORELAX_SANITIZE})
 endif()
 
-# Eigen and the standard library are compiled once and not once per file. Off in the build that treats warnings as
-# errors: there every file has to include what it uses.
-if(ISORELAX_PRECOMPILE)
-  file(WRITE ${CMAKE_BINARY_DIR}/precompiled/common.cpp "")
-  add_library(isorelax_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled/common.cpp)
-  target_link_libraries(isorelax_precompiled PRIVATE isorelax_build_flags Eigen3::Eigen)
-  target_precompile_headers(isorelax_precompiled PRIVATE
-    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional> <limits>
-    <memory> <optional> <span> <string> <string_view> <unordered_map> <vector>)
-endif()
-function(isorelax_precompile target)
-  if(ISORELAX_PRECOMPILE)
-    target_precompile_headers(${target} REUSE_FROM isorelax_precompiled)
+# isorelax_precompile(TARGET KIND HEADERS...): with ISORELAX_PRECOMPILE, the headers are compiled once for all targets of
+# a kind and not once per file.
+function(isorelax_precompile target kind)
+  if(NOT ISORELAX_PRECOMPILE)
+    return()
   endif()
+  set(shared isorelax_precompiled_${kind})
+  if(NOT TARGET ${shared})
+    file(WRITE ${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp "")
+    add_library(${shared} OBJECT ${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp)
+    target_link_libraries(${shared} PRIVATE isorelax_build_flags Eigen3::Eigen)
+    target_precompile_headers(${shared} PRIVATE
+      <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional>
+      <limits> <memory> <optional> <span> <string> <string_view> <unordered_map> <vector> ${ARGN})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${shared})
 endfunction()
 
 # isorelax_layer(NAME ROOM SOURCES... [DEPENDS targets...] [PRIVATE targets...])
@@ -50,5 +52,5 @@ function(isorelax_layer name)
   add_library(isorelax::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC ${stage})
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE isorelax_build_flags ${ARG_PRIVATE})
-  isorelax_precompile(${target})
+  isorelax_precompile(${target} common)
 endfunction()
