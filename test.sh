@@ -23,8 +23,6 @@ case "${1:-}" in
     ;;
 esac
 
-# Precompiled headers save a quarter of the time. A compiler cache saves more and does not work with them.
-[ -n "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] || configure_options=(-DISORELAX_PRECOMPILE=ON)
 # Tests that hold a stopwatch: a sanitizer makes them say how slow it is.
 untimed='-Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:Files.TimeFollows*:MillionTriangles.*'
 

@@ -1,8 +1,6 @@
 # shellcheck shell=bash
 # What run.sh and test.sh share; sourced by both. Everything it says goes to standard error.
 
-configure_options=()
-
 say() { printf '%s\n' "$*" >&2; }
 fail() {
   say "isorelax: $*"
@@ -90,8 +88,7 @@ show_progress() {
   return 0
 }
 
-# build_preset ROOT PRESET [TARGET...]: configures where needed, with what stands in configure_options, and builds; quiet
-# unless there is something to do.
+# build_preset ROOT PRESET [TARGET...]: configures where needed and builds; quiet unless there is something to do.
 build_preset() {
   local root=$1 preset=$2 folder="$1/build/$2" log status=0 pending
   shift 2
@@ -105,7 +102,7 @@ build_preset() {
   fi
   if [ ! -f "$folder/build.ninja" ] || [ "$root/CMakePresets.json" -nt "$folder/build.ninja" ]; then
     say "Configuring ($preset)"
-    if ! (cd -- "$root" && cmake --preset "$preset" "${configure_options[@]}") </dev/null >"$log" 2>&1; then
+    if ! (cd -- "$root" && cmake --preset "$preset") </dev/null >"$log" 2>&1; then
       grep -v '^-- ' "$log" | tail -n 40 >&2
       fail "configuring failed; all of it stands in $log"
     fi

@@ -17,8 +17,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 TOOL = "clang-tidy-14"
-# Together, a dozen files take little more than one.
-FILES_PER_UNIT = 12
+# Together, files take little more than one of them.
+FILES_PER_UNIT = 25
 
 
 def read_commands(build, root):

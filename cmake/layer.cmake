@@ -20,20 +20,22 @@ if(ISORELAX_SANITIZE)
   target_link_options(isorelax_build_flags INTERFACE -fsanitize=${ISORELAX_SANITIZE})
 endif()
 
-# isorelax_precompile(TARGET KIND HEADERS...): with ISORELAX_PRECOMPILE, the headers are compiled once for all targets of
-# a kind and not once per file.
+# isorelax_precompile(TARGET KIND [HEADERS ...] [LIBRARIES ...]): with ISORELAX_PRECOMPILE, what most sources include is
+# compiled once for all targets of a kind and not once per file. Not in the build that treats warnings as errors: there
+# every file has to include what it uses, and g++ takes precompiled system headers for the project's own.
 function(isorelax_precompile target kind)
   if(NOT ISORELAX_PRECOMPILE)
     return()
   endif()
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
   set(shared isorelax_precompiled_${kind})
   if(NOT TARGET ${shared})
     file(WRITE ${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp "")
     add_library(${shared} OBJECT ${CMAKE_BINARY_DIR}/precompiled/${kind}.cpp)
-    target_link_libraries(${shared} PRIVATE isorelax_build_flags Eigen3::Eigen)
+    target_link_libraries(${shared} PRIVATE isorelax_build_flags Eigen3::Eigen ${ARG_LIBRARIES})
     target_precompile_headers(${shared} PRIVATE
       <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <functional>
-      <limits> <memory> <optional> <span> <string> <string_view> <unordered_map> <vector> ${ARGN})
+      <limits> <memory> <optional> <span> <string> <string_view> <unordered_map> <vector> ${ARG_HEADERS})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${shared})
 endfunction()
