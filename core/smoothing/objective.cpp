@@ -61,7 +61,7 @@ template <bool kEquilateral>
                                                const EnergyBatch& __restrict b, Lanes& __restrict below) {
   for (unsigned i = 0; i < kLanes; ++i) below.at[i] = w.shape * b.shape.at[i] + w.area * b.area.at[i];
   if (exponent == 2) return;
-  for (unsigned i = 0; i < kLanes; ++i) below.at[i] = exponent == 1 ? 1 : std::pow(below.at[i], exponent - 1);
+  for (double& power : below.at) power = exponent == 1 ? 1 : std::pow(power, exponent - 1);
 }
 
 /// Second half: E^p and the gradients of Eq. 6 at corners 0 and 1, times the derivative of E^p.
