@@ -8,19 +8,20 @@
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
+#include "cli/method_options.h"
 #include "cli/problem_options.h"
 #include "cli/table.h"
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "quality/report.h"
-#include "smoothing/bounded_run.h"
+#include "smoothing/unguarded_run.h"
 
 namespace isorelax::cli {
 namespace {
 
 /// What smoothing did, for the report and the summary.
-struct Outcome : BoundedResult {
+struct Outcome : UnguardedResult {
   QualityReport before, after;
 };
 
@@ -48,6 +49,7 @@ Json to_json(const Outcome& outcome) {
   for (std::size_t bit = 0; bit < kLimits.size(); ++bit)
     limited[std::string(limit_name(kLimits[bit]))] = outcome.limits[bit];
   object["limited_in_last_step"] = std::move(limited);
+  object["turned_over"] = outcome.turned_over.size();
   object["notes"] = outcome.notes;
   return object;
 }
@@ -62,14 +64,6 @@ std::string summary(const Outcome& outcome) {
   text +=
       line("mean of smallest ", outcome.before.mean_min_angle_deg, outcome.after.mean_min_angle_deg, " deg");
   return text;
-}
-
-Solver parse_solver(const std::string& text) {
-  if (text == "auto") return Solver::automatic;
-  if (text == "jacobi") return Solver::jacobi;
-  if (text == "newton") return Solver::newton;
-  if (text == "lbfgs") return Solver::lbfgs;
-  throw UsageError("--solver " + text + ": expected auto, jacobi, newton or lbfgs");
 }
 
 class SmoothCommand : public Command {
@@ -94,23 +88,25 @@ class SmoothCommand : public Command {
            "--tolerance 0\n"
            "does exactly --iterations steps.\n"
            "\n"
+           "--method laplacian and angle-based are what others do, to compare with: no energy guides them, "
+           "and "
+           "they\n"
+           "stop by --iterations or the largest move.\n"
+           "\n"
            "Examples:\n"
            "  isorelax smooth part.off -o better.off --report report.json\n"
            "  isorelax smooth plate.obj -o plate2.obj --mu 0.5 --boundary slide --iterations 500\n"
-           "  isorelax smooth moved.ply -o moved.ply --reference initial.ply --pin held.txt";
+           "  isorelax smooth moved.ply -o moved.ply --reference initial.ply --pin held.txt\n"
+           "  isorelax smooth square.off -o other.off --method angle-based --weighting plain --guard off";
   }
   void declare(CLI::App& app) override {
     app.add_option("IN", input_, "Mesh to smooth: OFF, OBJ, PLY or STL")->required();
     app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
         ->required()
         ->type_name("OUT");
-    app.add_option("--solver", solver_,
-                   "auto (default: Newton steps, then L-BFGS), jacobi (the paper's step), newton or lbfgs")
-        ->type_name("SOLVER");
+    app_ = &app;
+    declare_method(app, method_);
     declare_problem(app, problem_);
-    app.add_option("--relaxation", jacobi_.relaxation, "Factor on the Jacobi step (default 0.9)")
-        ->type_name("W")
-        ->check(number_between(0.01, 2));
     app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
     app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
         ->type_name("T")
@@ -125,7 +121,7 @@ class SmoothCommand : public Command {
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
-    const Solver solver = parse_solver(solver_);
+    const Method method = parse_method(*app_, method_);
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
     MeshFile file = read_input_file(console, input_);
@@ -133,11 +129,15 @@ class SmoothCommand : public Command {
     // Before the long work, not after it.
     check_writable(output_);
     if (!report_.empty()) check_writable(report_);
-    const Outcome outcome = smooth(console, mesh, solver);
+    const Outcome outcome = smooth(console, mesh, method);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
+    if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
+    if (const auto fault = fault_of(outcome)) {
+      console.error(output_ + " is not written: " + *fault);
+      return kCheckFailed;
+    }
     for (const std::string& message : write_mesh(output_, mesh, write_like(file, output_)))
       console.message(output_ + ": " + message);
-    if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
     console.message(cli::summary(outcome));
     console.message("distance from the input surface " + number_text(outcome.deviation.max) + " at most, " +
                     number_text(outcome.deviation.rms) + " RMS (of the bounding-box diagonal)" +
@@ -150,12 +150,22 @@ class SmoothCommand : public Command {
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<Smoother> make_solver(const SmoothingProblem& problem, Solver solver) const {
-    return solver == Solver::jacobi ? make_jacobi(problem, jacobi_) : make_smoother(problem, solver);
+  /// Why the result of an unguarded run may not be written; a guarded one has no fault.
+  [[nodiscard]] std::optional<std::string> fault_of(const Outcome& outcome) const {
+    if (!outcome.turned_over.empty()) {
+      return "without a guard " + std::to_string(outcome.turned_over.size()) +
+             " triangles were turned over, the first " + std::to_string(outcome.turned_over.front());
+    }
+    if (limit_.max && outcome.deviation.max > *limit_.max) {
+      return "without a guard the surface went " + number_text(outcome.deviation.max) +
+             " from the input, farther than --max-deviation allows";
+    }
+    return std::nullopt;
   }
 
-  Outcome smooth(Console& console, TriangleMesh& mesh, Solver solver) const {
-    const ProblemOptions options = parse_problem(console, problem_, mesh.vertex_count());
+  Outcome smooth(Console& console, TriangleMesh& mesh, const Method& method) const {
+    ProblemOptions options = parse_problem(console, problem_, mesh.vertex_count());
+    if (!method.minimises) options.exponent = 1;  // of the energy that is reported
     const Topology topology(mesh.triangles, mesh.vertex_count());
     const auto measure = [&] {
       return measure_quality(mesh.positions, mesh.triangles, topology, options.threads);
@@ -169,9 +179,13 @@ class SmoothCommand : public Command {
                         "iteration " + std::to_string(iteration));
         return true;
       };
-      static_cast<BoundedResult&>(outcome) = run_bounded(
-          mesh.positions, mesh.triangles, options,
-          [&](const SmoothingProblem& problem) { return make_solver(problem, solver); }, run_, limit_, show);
+      if (method.guarded) {
+        static_cast<BoundedResult&>(outcome) =
+            run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show);
+      } else {
+        static_cast<UnguardedResult&>(outcome) =
+            run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);
+      }
     } catch (const MeshError& error) {  // gets the name of its file
       throw MeshError(input_ + ": " + error.what());
     }
@@ -180,9 +194,9 @@ class SmoothCommand : public Command {
   }
 
   std::string input_, output_, report_;
-  std::string solver_ = "auto";
+  CLI::App* app_ = nullptr;
+  MethodSpec method_;
   ProblemSpec problem_;
-  JacobiOptions jacobi_;
   RunOptions run_;
   DeviationLimit limit_;
   bool quiet_ = false;

@@ -21,8 +21,14 @@ constexpr double kConvergedMove = 1e-12;
 
 }  // namespace
 
-GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail)
-    : problem_(problem), detail_(detail), here_(problem), there_(problem), trial_(problem), fold_(problem) {}
+GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail, StepGuard guard)
+    : problem_(problem),
+      detail_(detail),
+      guard_(guard),
+      here_(problem),
+      there_(problem),
+      trial_(problem),
+      fold_(problem) {}
 
 double GuardedSmoother::smallest_move() const {
   return kConvergedMove * problem_.mean_edge_length;
@@ -41,8 +47,9 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   if (detail_ == RecordDetail::vertices_and_triangles) record_triangles(record);
   record.before.gradient_norm = propose(positions, here_, record);
   trial_.start(positions, record);
-  fold_.limit(trial_, record);
-  guard_energy(record);
+  if (guard_ != StepGuard::none) fold_.limit(trial_, record);
+  record.after = there_.evaluate(trial_.to());
+  if (guard_ == StepGuard::folds_and_energy) guard_energy(record);
   there_.mark(trial_.to());
   finish(record);
 }
@@ -67,7 +74,6 @@ void GuardedSmoother::record_triangles(StepRecord& record) const {
 /// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,
 /// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
-  record.after = there_.evaluate(trial_.to());
   const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
   for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
     ++record.energy_passes;

@@ -6,6 +6,13 @@
 
 namespace isorelax {
 
+/// What keeps a step from doing harm.
+enum class StepGuard : std::uint8_t {
+  folds_and_energy,  ///< no triangle folds and the energy does not rise
+  folds,             ///< no triangle folds
+  none,
+};
+
 /// What all steps share: a proposed tangent move for every vertex goes through the asynchronous fold control
 /// and the energy guard into a record. Those who derive say which moves to propose.
 class GuardedSmoother : public Smoother {
@@ -13,7 +20,8 @@ class GuardedSmoother : public Smoother {
   void step(std::span<const Vec3> positions, StepRecord& record) final;
 
  protected:
-  GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail);
+  GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail,
+                  StepGuard guard = StepGuard::folds_and_energy);
 
   /// Fills gradient and displacement (zero where nothing may or should move) of every vertex, and adds to
   /// record.limits. Returns the 2-norm of the tangent gradient. `here` is evaluated at `positions`.
@@ -35,6 +43,7 @@ class GuardedSmoother : public Smoother {
   void finish(StepRecord& record) const;
 
   RecordDetail detail_;
+  StepGuard guard_;
   Objective here_, there_;  // at the step's positions, and at the last trial
   Trial trial_;
   FoldControl fold_;

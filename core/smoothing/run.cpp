@@ -12,9 +12,12 @@ namespace {
 constexpr double kSettled = 1e-3;
 
 /// The stop that the last record asks for, if any.
-std::optional<StopReason> stop_after(const StepRecord& record, const RunResult& result,
-                                     const RunOptions& options) {
+std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord& record,
+                                     const RunResult& result, const RunOptions& options) {
   if (!(options.tolerance > 0)) return std::nullopt;
+  if (!smoother.descends()) {
+    return result.relative_move <= options.tolerance ? std::optional(StopReason::movement) : std::nullopt;
+  }
   // Slivers at the start make the first gradient huge: a small ratio alone says little while vertices still
   // move.
   if (result.gradient_ratio <= options.tolerance && result.relative_move <= kSettled)
@@ -92,7 +95,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
       result.stopped = StopReason::cancelled;
       break;
     }
-    if (const auto stop = stop_after(record, result, options)) {
+    if (const auto stop = stop_after(smoother, record, result, options)) {
       result.stopped = *stop;
       break;
     }

@@ -18,6 +18,8 @@ class Smoother {
  public:
   virtual ~Smoother() = default;
   virtual void step(std::span<const Vec3> positions, StepRecord& record) = 0;
+  /// Whether every step lowers the problem's energy; a run of another method stops by its moves alone.
+  [[nodiscard]] virtual bool descends() const { return true; }
 };
 
 /// Options of the paper's step (Sec. 3, Eq. 9).
@@ -101,7 +103,8 @@ struct RunResult {
 using StepObserver =
     std::function<bool(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions)>;
 
-/// Steps a smoother until a stop reason holds. Never raises the energy and never turns a triangle over.
+/// Steps a smoother until a stop reason holds. With a smoother that descends it never raises the energy and
+/// never turns a triangle over.
 RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec3> positions,
               const RunOptions& options, const StepObserver& observer = {});
 

@@ -60,6 +60,37 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   EXPECT_EQ(run_program(smooth + " --max-deviation inf").status, 0);
 }
 
+TEST(SmoothCommand, WritesNothingWhenAnUnguardedMethodTurnedTrianglesOver) {
+  const Workspace workspace;
+  // An arrow whose corners have their mean beyond its notch.
+  const std::string arrow = workspace.write("arrow.off",
+                                            "OFF\n5 4 0\n0 1.8 0\n0 1.5 0\n3 -3 0\n0 2 0\n-3 -3 0\n"
+                                            "3 0 1 2\n3 0 2 3\n3 0 3 4\n3 0 4 1\n");
+  const std::string smooth = "smooth " + arrow + " --method laplacian --iterations 5 -o ";
+  const Outcome unguarded = run_program(smooth + workspace.path("folded.off") + " --guard off");
+  EXPECT_EQ(unguarded.status, 1);
+  expect_one_error_line(unguarded);
+  EXPECT_NE(unguarded.err.find("2 triangles were turned over"), std::string::npos) << unguarded.err;
+  EXPECT_FALSE(std::filesystem::exists(workspace.path("folded.off")));
+  EXPECT_EQ(run_program(smooth + workspace.path("kept.off")).status, 0);
+  const Outcome quality = run_program("quality --json " + workspace.path("kept.off"));
+  EXPECT_EQ(Json::parse(quality.out)["inverted"], 0);
+}
+
+TEST(SmoothCommand, RefusesOptionsThatAMethodDoesNotHave) {
+  const Workspace workspace;
+  const std::string smooth =
+      "smooth " + workspace.write("t.off", kTriangle) + " -o " + workspace.path("o.off");
+  for (const char* options :
+       {" --method newton", " --guard off", " --weighting plain", " --method laplacian --weighting plain",
+        " --method angle-based --weighting length", " --method laplacian --guard maybe",
+        " --method laplacian --mu 1", " --method angle-based --solver newton"}) {
+    const Outcome outcome = run_program(smooth + options);
+    EXPECT_EQ(outcome.status, 2) << options;
+    expect_one_error_line(outcome);
+  }
+}
+
 TEST(SmoothCommand, LeavesTextFilesText) {
   const Workspace workspace;
   const std::string ply =
