@@ -96,13 +96,16 @@ class Checker:
         if len(sources) > 1:
             together = self.cache / f"{target}_{first}.cpp"
             together.write_text("".join(f'#include "{source}"\n' for source in sources))
-            clean, _ = self.tidy(together, options, "--checks=-bugprone-suspicious-include")
+            clean, text = self.tidy(together, options, "--checks=-bugprone-suspicious-include")
         else:
-            clean = False
+            clean, text = False, ""
         findings = []
         if not clean:
             results = [self.tidy(source, options) for source in sources]
-            findings = [text for good, text in results if not good]
+            findings = [found for good, found in results if not good]
+            if text and not findings:
+                reason = next((line for line in text.splitlines() if "error:" in line), text[:200])
+                print(f"{target}: clean one by one, not together, which takes longer: {reason}", flush=True)
         if not findings and key:
             mark.touch()
         return "\n".join(findings)

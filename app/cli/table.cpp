@@ -11,7 +11,7 @@ std::string Table::text() const {
   for (const auto& [name, value] : rows_) width = std::max(width, name.size());
   std::string text;
   for (const auto& [name, value] : rows_) {
-    text += name + std::string(width - name.size() + 2, ' ') + value + "\n";
+    text.append(name).append(width - name.size() + 2, ' ').append(value).append("\n");
   }
   return text;
 }

@@ -59,7 +59,9 @@ Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::GetWindowDrawList()->AddText(ui.fonts.heading, line, low, color::kTextDim, title.c_str());
   float x = low.x + width;
-  for (const KeyEntry& entry : std::views::reverse(key)) {
+  // From the right; clang 14 cannot read this library's std::views::reverse.
+  for (std::size_t i = key.size(); i-- > 0;) {
+    const KeyEntry& entry = key[i];
     x -= small_width(ui, entry.label);
     small_text(ui, {x, low.y}, color::kTextDim, std::string(entry.label));
     x -= ui.px(14);

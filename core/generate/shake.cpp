@@ -86,7 +86,7 @@ void shake(TriangleMesh& mesh, double amount, const std::vector<Freedom>& freedo
       mesh, amount,
       [&](Index v, double s, double t) -> Vec3 {
         const Freedom& freedom = freedoms[v];
-        const Vec3 moved = original[v] + s * freedom.first + t * freedom.second;
+        Vec3 moved = original[v] + s * freedom.first + t * freedom.second;
         if (freedom.turn == 0) return moved;
         const double c = std::cos(s * freedom.turn);
         const double n = std::sin(s * freedom.turn);

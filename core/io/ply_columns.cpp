@@ -94,6 +94,7 @@ std::vector<Attribute> join_columns(std::vector<PlyColumn>&& columns) {
   }
   std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.place < b.place; });
   std::vector<Attribute> attributes;
+  attributes.reserve(placed.size());
   for (Placed& entry : placed) {
     attributes.push_back(std::move(entry.attribute));
   }

@@ -48,7 +48,7 @@ class Search {
     members_.assign(1, seed);
     found_.component[seed] = id;
     std::size_t turned = 0;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows meanwhile
       const Index t = members_[i];
       turned += found_.turn[t] ? 1 : 0;
       for (Corner c = 3 * t; c < 3 * t + 3; ++c) step_across(c, id);

@@ -35,7 +35,7 @@ class TemporaryFolder {
                                                   const std::string& name = "square.off") const {
     GenerateOptions options;
     options.triangles = triangles;
-    const std::filesystem::path path = path_ / name;
+    std::filesystem::path path = path_ / name;
     (void)write_mesh(path, generate(ShapeKind::random_square, options));
     return path;
   }

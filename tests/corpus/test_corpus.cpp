@@ -82,9 +82,9 @@ TEST_P(Corpus, NoTriangleIsNewlyInverted) {
 TEST_P(Corpus, NoTriangleTurnsItsBack) {
   const Smoothed& s = smoothed();
   std::size_t turned = 0;
-  for (const auto& [a, b, c] : s.before.triangles) {
-    const auto normal = [&](const TriangleMesh& m) {
-      return area_vector(m.positions[a], m.positions[b], m.positions[c]);
+  for (const Triangle& t : s.before.triangles) {
+    const auto normal = [&t](const TriangleMesh& m) {
+      return area_vector(m.positions[t[0]], m.positions[t[1]], m.positions[t[2]]);
     };
     if (normal(s.before).dot(normal(s.after)) < 0) ++turned;
   }

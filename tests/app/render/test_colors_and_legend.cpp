@@ -19,6 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> texts(const std::vector<Tick>& ticks) {
   std::vector<std::string> all;
+  all.reserve(ticks.size());
   for (const Tick& tick : ticks) all.push_back(tick.text);
   return all;
 }

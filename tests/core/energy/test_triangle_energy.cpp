@@ -19,7 +19,7 @@ class RandomCases {
   Points triangle() {
     for (;;) {
       const double size = std::pow(10.0, 2 * uniform());
-      const Points x = {size * vector(), size * vector(), size * vector()};
+      Points x = {size * vector(), size * vector(), size * vector()};
       if (area_vector(x[0], x[1], x[2]).norm() > 0.05 * size * size) return x;
     }
   }

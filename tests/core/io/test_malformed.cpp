@@ -21,7 +21,8 @@ struct Malformed {
   const char* reason;
 };
 
-void PrintTo(const Malformed& file, std::ostream* out) {
+// The name by which GoogleTest finds it.
+void PrintTo(const Malformed& file, std::ostream* out) {  // NOLINT(readability-identifier-naming)
   *out << file.name;
 }
 

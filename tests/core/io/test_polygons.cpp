@@ -90,6 +90,7 @@ TEST(Polygon, ConcavePolygonsInAnyPlaneAreCoveredOnceAndWithoutOverlap) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -3).normalized()).toRotationMatrix();
   for (const std::vector<Vec3>& flat : {star, comb(40)}) {
     std::vector<Vec3> corners;
+    corners.reserve(flat.size());
     for (const Vec3& corner : flat) {
       corners.push_back(turn * corner + Vec3(100, -50, 7));
     }
@@ -111,6 +112,7 @@ TEST(Polygon, TinyAndHugePolygonsAreCutAlike) {
   const std::vector<Cut> expected = cut(unit);
   for (const double scale : {1e-300, 1e-160, 1e160, 4e307}) {
     std::vector<Vec3> corners;
+    corners.reserve(unit.size());
     for (const Vec3& corner : unit) {
       corners.push_back(scale * corner);
     }
@@ -125,6 +127,7 @@ TEST(Polygon, DegenerateAndSelfCrossingPolygonsGiveTrianglesAndSaySo) {
   expect_watertight(7, triangles);
   triangles.clear();
   std::vector<Vec3> pentagram;
+  pentagram.reserve(5);
   for (int i = 0; i < 5; ++i) {
     pentagram.emplace_back(std::cos(2.5132741 * i), std::sin(2.5132741 * i), 0.0);
   }
@@ -135,6 +138,7 @@ TEST(Polygon, DegenerateAndSelfCrossingPolygonsGiveTrianglesAndSaySo) {
 TEST(Polygon, AHundredThousandCornersDoNotTakeQuadraticTime) {
   const std::vector<Vec3> corners = comb(50000);
   std::vector<Vec3> turned;
+  turned.reserve(corners.size());
   for (const Vec3& corner : corners) {
     turned.emplace_back(0.0, corner.x(), -corner.y());
   }
