@@ -89,6 +89,8 @@ int parse_and_run(std::vector<std::string> arguments, Console& console) {
 int run(int argc, const char* const* argv) {
   // A reader that goes away shows as a failed write, not as a signal.
   std::signal(SIGPIPE, SIG_IGN);
+  // So does a file that may not grow any more: its temporary copy is taken away again.
+  std::signal(SIGXFSZ, SIG_IGN);
   Console console;
   try {
     return parse_and_run(std::vector<std::string>(argv + std::min(argc, 1), argv + argc), console);

@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "editor/screenshot.h"
+#include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "render/picture.h"
 #include "window/window.h"
@@ -45,6 +46,7 @@ class ViewCommand : public Command {
   }
 
   int run(Console& console) override {
+    for (const std::string& file : files_) check_readable(file);
     if (!screenshot_.empty()) {
       take_screenshot(console);
       return kDone;

@@ -42,6 +42,9 @@ struct MeshFile {
 /// index out of range, a coordinate that is not finite, no triangle at all.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
 
+/// Throws the InputError that opening `path` would meet; looks at nothing in it.
+void check_readable(const std::filesystem::path& path);
+
 /// Readers of one format from memory; `name` stands in messages. Same promises as read_mesh.
 [[nodiscard]] MeshFile read_off(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFile read_obj(std::string_view bytes, const std::string& name);

@@ -25,13 +25,17 @@ struct Descriptor {
   throw InputError(name, "", "cannot be read: " + std::generic_category().message(error));
 }
 
-/// The bytes of a regular file. Opening does not wait, so that a pipe without a writer cannot hold it up.
-std::string read_bytes(const std::filesystem::path& path, const std::string& name) {
+/// Opens for reading without waiting, so that a pipe without a writer cannot hold it up.
+int open_or_fail(const std::filesystem::path& path, const std::string& name) {
   const int opened = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (opened < 0) {
     fail(name, errno);
   }
-  const Descriptor file(opened);
+  return opened;
+}
+
+/// The size of an open regular file.
+std::size_t regular_size(const Descriptor& file, const std::string& name) {
   struct stat status {};
   if (::fstat(file.number, &status) != 0) {
     fail(name, errno);
@@ -42,7 +46,12 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& nam
   if (!S_ISREG(status.st_mode)) {
     throw InputError(name, "", "is not a regular file");
   }
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  return static_cast<std::size_t>(status.st_size);
+}
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& name) {
+  const Descriptor file(open_or_fail(path, name));
+  std::string bytes(regular_size(file, name), '\0');
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got = ::read(file.number, bytes.data() + done, bytes.size() - done);
@@ -76,6 +85,11 @@ MeshFile read_format(FileFormat format, std::string_view bytes, const std::strin
 }
 
 }  // namespace
+
+void check_readable(const std::filesystem::path& path) {
+  const std::string name = one_line(path.string());
+  regular_size(Descriptor(open_or_fail(path, name)), name);
+}
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   const std::string name = one_line(path.string());

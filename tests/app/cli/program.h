@@ -48,12 +48,17 @@ inline std::string contents(const std::string& path) {
   return text.str();
 }
 
+/// The built program as a word for the shell.
+inline std::string quoted_program() {
+  return std::string("'") + ISORELAX_PROGRAM + "' ";
+}
+
 /// Runs the built program through the shell: `arguments` as one would type them.
 inline Outcome run_program(const std::string& arguments) {
   const Workspace workspace;
   const std::string out = workspace.path("out");
   const std::string err = workspace.path("err");
-  const std::string command = std::string("'") + ISORELAX_PROGRAM + "' " + arguments;
+  const std::string command = quoted_program() + arguments;
   const int code = std::system(("{ " + command + " ; } >'" + out + "' 2>'" + err + "'").c_str());
   return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, contents(out), contents(err)};
 }

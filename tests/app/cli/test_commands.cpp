@@ -275,10 +275,27 @@ TEST(Statuses, OutputThatCannotBeWrittenIsFour) {
   EXPECT_EQ(run_program("--help > /dev/full").status, 4);
 }
 
+TEST(ViewCommand, SaysThatAFileIsMissingBeforeItAsksForADisplay) {
+  const Outcome outcome = run_program("view no/such/mesh.off");
+  EXPECT_EQ(outcome.status, 3);
+  expect_one_error_line(outcome);
+}
+
+TEST(SmoothCommand, LeavesNothingBehindWhereTheResultDoesNotFit) {
+  const Workspace workspace;
+  ASSERT_EQ(run_program("generate random --triangles 2000 -o " + workspace.path("in.off")).status, 0);
+  const std::string smooth = "smooth " + workspace.path("in.off") + " -o " + workspace.path("sub/out.off");
+  std::filesystem::create_directory(workspace.path("sub"));
+  const Outcome outcome = run_program("--version; ulimit -f 8; " + quoted_program() + smooth + " --quiet");
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_TRUE(std::filesystem::is_empty(workspace.path("sub")));
+}
+
 TEST(Help, OfEveryCommandHasAnExample) {
   const Outcome all = run_program("--help");
   EXPECT_EQ(all.status, 0);
-  for (const std::string& name : std::vector<std::string>{"info", "quality", "generate"}) {
+  for (const std::string& name :
+       std::vector<std::string>{"info", "quality", "smooth", "render", "generate", "benchmark", "view"}) {
     EXPECT_NE(all.out.find(name), std::string::npos);
     const Outcome one = run_program(name + " --help");
     EXPECT_EQ(one.status, 0);

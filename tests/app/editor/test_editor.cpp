@@ -147,6 +147,14 @@ TEST_F(EditorTest, StatesLookAsAccepted) {
   press(ui::Key::escape);
 }
 
+TEST_F(EditorTest, ATooltipAppearsWhereThePointerRests) {
+  open(folder.make_square());
+  const Image below = part("reset");
+  move_to("run");
+  EXPECT_FALSE(below == part("reset"));
+  keep("tooltip");
+}
+
 TEST_F(EditorTest, OtherStatesCanBeLookedAt) {
   open(folder.make_square());
   press(ui::Key::tab);
@@ -166,9 +174,6 @@ TEST_F(EditorTest, OtherStatesCanBeLookedAt) {
   settle();
   keep("unsaved");
   press(ui::Key::escape);
-  move_to("mu");
-  for (int k = 0; k < 60; ++k) frames(1);
-  keep("tooltip");
   move_to("angle-plot");
   keep("hover");
   press(ui::Key::h);
