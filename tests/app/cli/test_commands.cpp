@@ -228,6 +228,39 @@ TEST(GenerateCommand, IsSilentWhenQuiet) {
   EXPECT_EQ(run_program("generate cube --quiet -o " + workspace.path("c.off")).err, "");
 }
 
+TEST(BenchmarkCommand, PutsThePapersTableBesideOurs) {
+  const Workspace workspace;
+  const std::string picture = workspace.path("figure.png");
+  const std::string paper = "benchmark paper --triangles 100 200 300 --quiet";
+  const Outcome outcome = run_program(paper + " --json --picture " + picture);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json object = Json::parse(outcome.out);
+  EXPECT_GT(std::filesystem::file_size(picture), 10000U);
+  EXPECT_GT(object["choices"].size(), 4U);
+  ASSERT_EQ(object["meshes"].size(), 6U);
+  EXPECT_EQ(object["meshes"][5]["triangles"], 300);
+  std::vector<std::string> methods;
+  for (const Json& row : object["rows"]) methods.push_back(row["method"]);
+  EXPECT_EQ(methods, (std::vector<std::string>{"original", "laplacian", "angle_based", "cn", "cnea",
+                                               "converged", "worst_element"}));
+  EXPECT_EQ(object["rows"][2]["paper_min_angle_deg"], Json::parse("[32.9, 30.9, 29.5, 3.9, null, null]"));
+  for (std::size_t mesh = 3; mesh < 6; ++mesh) {
+    const auto smallest = [&](std::size_t row) {
+      return object["rows"][row]["min_angle_deg"][mesh].get<double>();
+    };
+    const auto largest = [&](std::size_t row) {
+      return object["rows"][row]["max_angle_deg"][mesh].get<double>();
+    };
+    EXPECT_GT(smallest(5), smallest(0) + 5);
+    EXPECT_GT(smallest(5), smallest(1));
+    EXPECT_LT(largest(6), largest(1));
+  }
+  const Outcome text = run_program(paper);
+  EXPECT_NE(text.out.find("(36.1)"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("(-)"), std::string::npos) << text.out;
+  EXPECT_EQ(run_program("benchmark paper --triangles 100").status, 2);
+}
+
 TEST(Statuses, WrongUsageIsTwo) {
   const Workspace workspace;
   const std::string mesh = workspace.write("t.off", kTriangle);
