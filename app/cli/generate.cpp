@@ -45,6 +45,7 @@ class GenerateCommand : public Command {
            "0.\n\n"
            "Examples:\n"
            "  isorelax generate random --triangles 2126 --seed 7 -o square.off\n"
+           "  isorelax generate random --triangles 2000 --tangle 0.2 -o tangled.off\n"
            "  isorelax generate hexagonal --triangles 11704 -o hexagons.off\n"
            "  isorelax generate sphere --vertices 5832 -o sphere.ply\n"
            "  isorelax generate random-sphere --vertices 5832 -o sphere.obj\n"
@@ -69,6 +70,9 @@ class GenerateCommand : public Command {
                           ->type_name("N");
     vertices->excludes(triangles);
     app.add_option("--jitter", jitter_, "Largest random move, in edge lengths, 0 to 1")->type_name("J");
+    app.add_option("--tangle", options_.tangle,
+                   "Share of a square's inner vertices that are thrown anywhere inside, 0 to 1 (default 0)")
+        ->type_name("SHARE");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
     app_ = &app;
   }

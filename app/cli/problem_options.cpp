@@ -1,30 +1,21 @@
 #include "cli/problem_options.h"
 
 #include <CLI/App.hpp>
-#include <charconv>
-#include <fstream>
-#include <optional>
 
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/vertex_files.h"
 #include "mesh/error.h"
 
 namespace isorelax::cli {
 namespace {
 
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 EnergyWeights parse_weights(const std::string& text) {
   const std::size_t comma = text.find(',');
   if (comma != std::string::npos) {
-    const auto shape = number(std::string_view(text).substr(0, comma));
-    const auto area = number(std::string_view(text).substr(comma + 1));
+    const auto shape = parse_number(std::string_view(text).substr(0, comma));
+    const auto area = parse_number(std::string_view(text).substr(comma + 1));
     if (shape && area) return {*shape, *area};
   }
   throw UsageError("--weights " + text + ": expected two numbers, shape and area, as in 1,0.5");
@@ -43,35 +34,10 @@ SurfaceRule parse_surface(const std::string& text) {
   throw UsageError("--surface " + text + ": expected tangent or project");
 }
 
-/// Vertex numbers from 0, separated by white space or commas; # starts a comment. Throws InputError for what
-/// is no number of a vertex.
-std::vector<Index> read_pins(const std::string& path, std::size_t vertex_count) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path, "", "cannot be opened");
-  std::vector<Index> pins;
-  std::string line;
-  for (unsigned row = 1; std::getline(file, line); ++row) {
-    line.resize(std::min(line.size(), line.find('#')));
-    std::size_t at = 0;
-    while ((at = line.find_first_not_of(" \t\r,", at)) != std::string::npos) {
-      const std::size_t end = std::min(line.size(), line.find_first_of(" \t\r,", at));
-      Index id = 0;
-      const auto [stop, error] = std::from_chars(line.data() + at, line.data() + end, id);
-      if (error != std::errc() || stop != line.data() + end) {
-        throw InputError(path, "line " + std::to_string(row),
-                         "expected vertex numbers, found \"" + line.substr(at, end - at) + "\"");
-      }
-      if (id >= vertex_count) {
-        throw InputError(path, "line " + std::to_string(row),
-                         "names vertex " + std::to_string(id) + ", but the mesh has " +
-                             std::to_string(vertex_count) + " (numbered from 0)");
-      }
-      pins.push_back(id);
-      at = end;
-    }
-  }
-  if (file.bad()) throw InputError(path, "", "cannot be read");
-  return pins;
+UntangleRule parse_untangle(const std::string& text) {
+  if (text == "auto") return UntangleRule::automatic;
+  if (text == "off") return UntangleRule::off;
+  throw UsageError("--untangle " + text + ": expected auto or off");
 }
 
 }  // namespace
@@ -99,8 +65,15 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--surface", spec.surface,
                  "project (default): slide on the surface as it was; tangent: move in tangent planes only")
       ->type_name("RULE");
-  app.add_option("--pin", spec.pin_file, "File of vertex numbers (from 0) that must not move")
-      ->type_name("FILE");
+  app.add_option("--untangle", spec.untangle,
+                 "auto (default): turn triangles that lie upside down before smoothing; off: leave them")
+      ->type_name("RULE");
+  app.add_option(
+         "--pin", spec.pins,
+         "Vertices that must not move: boundary, feature, box:X0,Y0,Z0:X1,Y1,Z1 (two corners), or a FILE "
+         "of vertex numbers from 0; may be repeated")
+      ->type_name("WHICH")
+      ->allow_extra_args(false);
   app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")
       ->type_name("N");
 }
@@ -110,7 +83,7 @@ ReferenceChoice parse_reference(Console& console, const std::string& text) {
   if (text == "initial") return InitialReference{};
   constexpr std::string_view kEdge = "equilateral:";
   if (text.starts_with(kEdge)) {
-    const auto edge = number(std::string_view(text).substr(kEdge.size()));
+    const auto edge = parse_number(std::string_view(text).substr(kEdge.size()));
     if (!edge || !(*edge > 0))
       throw UsageError("--reference " + text + ": expected a positive edge length after the colon");
     return EdgeLengthReference{*edge};
@@ -121,7 +94,7 @@ ReferenceChoice parse_reference(Console& console, const std::string& text) {
 FeatureOptions parse_features(const std::string& text) {
   if (text == "auto") return {};
   if (text == "none") return FeatureOptions::none();
-  const auto degrees = number(text);
+  const auto degrees = parse_number(text);
   if (!degrees || !(*degrees > 0) || !(*degrees <= 180)) {
     throw UsageError("--features " + text +
                      ": expected auto, none, or an angle over 0 and up to 180 degrees");
@@ -131,7 +104,7 @@ FeatureOptions parse_features(const std::string& text) {
   return options;
 }
 
-ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, std::size_t vertex_count) {
+ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, const TriangleMesh& mesh) {
   ProblemOptions options;
   options.weights = spec.weights.empty() ? EnergyWeights::from_mu(spec.mu) : parse_weights(spec.weights);
   options.exponent = spec.exponent;
@@ -139,8 +112,9 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, std::siz
   options.features = parse_features(spec.features);
   options.surface = parse_surface(spec.surface);
   options.reference = parse_reference(console, spec.reference);
-  if (!spec.pin_file.empty()) options.pinned = read_pins(spec.pin_file, vertex_count);
+  options.untangle = parse_untangle(spec.untangle);
   options.threads = spec.threads;
+  options.pinned = parse_pins(console, spec.pins, mesh, options);
   return options;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "smoothing/problem.h"
 
@@ -21,17 +22,19 @@ struct ProblemSpec {
   std::string boundary = "fixed";
   std::string features = "auto";
   std::string surface = "project";
-  std::string pin_file;
+  std::string untangle = "auto";
+  std::vector<std::string> pins;
   unsigned threads = 0;
 };
 
-/// Declares --mu, --weights, --exponent, --reference, --boundary, --features, --pin and --threads.
+/// Declares --mu, --weights, --exponent, --reference, --boundary, --features, --surface, --untangle, --pin
+/// and
+/// --threads.
 void declare_problem(CLI::App& app, ProblemSpec& spec);
 
-/// Reads the typed options; reference and pin files too, for a mesh of so many vertices. Throws UsageError,
-/// InputError.
+/// Reads the typed options for a mesh; files that they name too. Throws UsageError, InputError.
 [[nodiscard]] ProblemOptions parse_problem(Console& console, const ProblemSpec& spec,
-                                           std::size_t vertex_count);
+                                           const TriangleMesh& mesh);
 
 /// equilateral | equilateral:EDGE | initial | FILE.
 [[nodiscard]] ReferenceChoice parse_reference(Console& console, const std::string& text);

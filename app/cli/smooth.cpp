@@ -42,6 +42,9 @@ Json to_json(const Outcome& outcome) {
                          {"rms", outcome.deviation.rms},
                          {"volume_change", outcome.deviation.volume_change},
                          {"normal_change_deg", outcome.deviation.normal_change_deg}};
+  object["untangled"] = {{"inverted_before", outcome.untangled.before},
+                         {"inverted_after", outcome.untangled.after},
+                         {"moved_vertices", outcome.untangled.moved.size()}};
   object["gradient_ratio"] = outcome.run.gradient_ratio;
   object["relative_energy_change"] = outcome.run.energy_change;
   object["relative_move"] = outcome.run.relative_move;
@@ -164,7 +167,7 @@ class SmoothCommand : public Command {
   }
 
   Outcome smooth(Console& console, TriangleMesh& mesh, const Method& method) const {
-    ProblemOptions options = parse_problem(console, problem_, mesh.vertex_count());
+    ProblemOptions options = parse_problem(console, problem_, mesh);
     if (!method.minimises) options.exponent = 1;  // of the energy that is reported
     const Topology topology(mesh.triangles, mesh.vertex_count());
     const auto measure = [&] {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "generate/random.h"
 #include "generate/shapes.h"
 #include "mesh/error.h"
 
@@ -74,7 +75,9 @@ double spacing_for(double area, std::size_t triangles) {
   return std::sqrt(4 * area / (std::sqrt(3.0) * static_cast<double>(triangles)));
 }
 
-TriangleMesh generate(ShapeKind kind, const GenerateOptions& options) {
+namespace {
+
+TriangleMesh generate_sound(ShapeKind kind, const GenerateOptions& options) {
   if (options.vertices && options.triangles)
     throw UsageError("give a number of vertices or of triangles, not both");
   if (std::max(options.vertices.value_or(0), options.triangles.value_or(0)) > kMostTriangles) {
@@ -107,6 +110,32 @@ TriangleMesh generate(ShapeKind kind, const GenerateOptions& options) {
       break;
   }
   return make_part(size);
+}
+
+/// Throws a share of the inner vertices of a unit square anywhere inside.
+void tangle(TriangleMesh& mesh, double share, Random& random) {
+  std::vector<Index> inner;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    if (std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()}) > 0) inner.push_back(v);
+  }
+  const auto thrown = static_cast<std::size_t>(std::lround(share * static_cast<double>(inner.size())));
+  for (std::size_t i = 0; i < thrown; ++i) {
+    std::swap(inner[i], inner[i + random.below(inner.size() - i)]);
+    mesh.positions[inner[i]] = Vec3(random.uniform(), random.uniform(), 0);
+  }
+}
+
+}  // namespace
+
+TriangleMesh generate(ShapeKind kind, const GenerateOptions& options) {
+  if (!(options.tangle >= 0 && options.tangle <= 1)) throw UsageError("the tangle must lie between 0 and 1");
+  const bool square = kind == ShapeKind::random_square || kind == ShapeKind::hexagonal_square;
+  if (options.tangle > 0 && !square) throw UsageError("only random and hexagonal squares can be tangled");
+  TriangleMesh mesh = generate_sound(kind, options);
+  Random random(options.seed + 0x7461'6e67);
+  if (options.tangle > 0) tangle(mesh, options.tangle, random);
+  return mesh;
 }
 
 }  // namespace isorelax

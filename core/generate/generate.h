@@ -42,6 +42,9 @@ struct GenerateOptions {
   /// along them, corners and the boundary of a plane stay. No meaning for random_square and random_sphere.
   /// None: 0.45 for hexagonal_square and part, 0 for the others.
   std::optional<double> jitter;
+  /// Share of the inner vertices, 0..1, that are thrown anywhere inside at last, which turns triangles upside
+  /// down: something to untangle. Only for squares.
+  double tangle = 0;
 };
 
 /// Makes a mesh, the same one for the same options everywhere. Triangles are counter-clockwise seen from
@@ -57,7 +60,7 @@ struct GenerateOptions {
 /// part              3 x 2 x 0.8 block with a round hole, a chamfer along the top and one rounded corner
 ///
 /// Throws UsageError for a count that the kind cannot have (sphere: under 4 vertices), both counts at once,
-/// or a jitter outside 0..1.
+/// a jitter or a tangle outside 0..1, or a tangle of another kind than a square.
 [[nodiscard]] TriangleMesh generate(ShapeKind kind, const GenerateOptions& options);
 
 }  // namespace isorelax

@@ -88,18 +88,25 @@ bool opposes_surroundings(const Faces& faces, const Topology& topology, std::siz
 
 }  // namespace
 
+std::optional<Vec3> plane_normal(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                 const Topology& topology, unsigned threads) {
+  const Faces faces{positions, triangles};
+  const Vec3 total = total_area_vector(faces, threads);
+  if (!(total.norm() > 0) || !lies_in_plane(faces, topology, total.normalized())) return std::nullopt;
+  return total.normalized();
+}
+
 std::vector<Index> inverted_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                       const Topology& topology, unsigned threads) {
   const Faces faces{positions, triangles};
-  const Vec3 total = total_area_vector(faces, threads);
-  const bool planar = total.norm() > 0 && lies_in_plane(faces, topology, total.normalized());
+  const std::optional<Vec3> plane = plane_normal(positions, triangles, topology, threads);
   std::vector<std::vector<Index>> found(block_count(triangles.size()));
   parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Vec3 normal = faces.area_vector_of(t);
       const bool inverted =
-          planar ? normal.dot(total) < 0
-                 : turns_back(faces, topology, t, normal) && opposes_surroundings(faces, topology, t, normal);
+          plane ? normal.dot(*plane) < 0
+                : turns_back(faces, topology, t, normal) && opposes_surroundings(faces, topology, t, normal);
       if (inverted && !faces.degenerate(t)) found[begin / kBlockSize].push_back(static_cast<Index>(t));
     }
   });

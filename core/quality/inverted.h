@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,5 +22,11 @@ namespace isorelax {
 [[nodiscard]] std::vector<Index> inverted_triangles(std::span<const Vec3> positions,
                                                     std::span<const Triangle> triangles,
                                                     const Topology& topology, unsigned threads = 0);
+
+/// The unit normal of a mesh that lies in one plane (to 1e-6 of its bounding-box diagonal), with the sign of
+/// its total area; none for any other surface and where the total area is zero.
+[[nodiscard]] std::optional<Vec3> plane_normal(std::span<const Vec3> positions,
+                                               std::span<const Triangle> triangles, const Topology& topology,
+                                               unsigned threads = 0);
 
 }  // namespace isorelax

@@ -73,6 +73,22 @@ void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::si
 /// A stage that only leads to the next one need not be exact.
 constexpr double kStageTolerance = 1e-4;
 
+/// What the user is told about triangles that lay upside down; nothing where there were none.
+std::vector<std::string> note_of(const UntangleResult& untangled) {
+  if (untangled.before == 0) return {};
+  const auto triangles = [](std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " triangle" : " triangles");
+  };
+  if (untangled.moved.empty()) {
+    return {triangles(untangled.before) +
+            " upside down could not be turned by moving the vertices that may move"};
+  }
+  return {triangles(untangled.before) + (untangled.before == 1 ? " was" : " were") +
+          " upside down: untangled by moving " + std::to_string(untangled.moved.size()) +
+          (untangled.moved.size() == 1 ? " vertex" : " vertices") + ", " +
+          (untangled.after == 0 ? "none is" : std::to_string(untangled.after) + " are") + " left"};
+}
+
 }  // namespace
 
 RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
@@ -108,10 +124,13 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
   return result;
 }
 
-BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
-                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
-                          const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer) {
+namespace {
+
+/// The smoothing part of run_bounded, with deviations measured against `surface`.
+BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
+                       std::span<const Triangle> triangles, const ProblemOptions& problem_options,
+                       const SmootherFactory& make_smoother, const RunOptions& run_options,
+                       const DeviationLimit& limit, const StepObserver& observer) {
   const std::vector<Vec3> original(positions.begin(), positions.end());
   ProblemOptions options = problem_options;
   std::optional<std::vector<Index>> inverted_before;
@@ -130,7 +149,7 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
                                 return !observer || observer(iteration, record, moved);
                               });
     const DeviationByTriangle deviation =
-        measure_deviation_by_triangle(original, positions, triangles, problem.topology, options.threads);
+        measure_deviation_by_triangle(surface, positions, triangles, problem.topology, options.threads);
     result.deviation = deviation.whole;
     std::vector<Index> over;
     if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
@@ -151,6 +170,36 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
       grow(options.held_near_surface, triangles, positions.size());
     std::copy(original.begin(), original.end(), positions.begin());
   }
+}
+
+}  // namespace
+
+BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
+                          const RunOptions& run_options, const DeviationLimit& limit,
+                          const StepObserver& observer) {
+  const std::vector<Vec3> input(positions.begin(), positions.end());
+  UntangleResult untangled = untangle_input(positions, triangles, problem_options);
+  std::vector<std::string> notes = note_of(untangled);
+  const Topology topology(triangles, static_cast<Index>(positions.size()));
+  const auto deviation = [&] {
+    return measure_deviation(input, positions, triangles, topology, problem_options.threads);
+  };
+  if (!untangled.moved.empty() && limit.max && deviation().max > *limit.max) {
+    std::copy(input.begin(), input.end(), positions.begin());
+    notes = {"untangling would leave the input surface by more than the limit: not done"};
+    untangled = {untangled.before, untangled.before, {}};
+  }
+  const bool moved = !untangled.moved.empty();
+  const std::vector<Vec3> start(positions.begin(), positions.end());
+  BoundedResult result = run_from(positions, limit.max ? input : start, triangles, problem_options,
+                                  make_smoother, run_options, limit, observer);
+  // Triangles upside down in a plane cover what the sound ones cover as well.
+  if (moved && !plane_normal(input, triangles, topology, problem_options.threads))
+    result.deviation = deviation();
+  result.untangled = std::move(untangled);
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
+  return result;
 }
 
 }  // namespace isorelax

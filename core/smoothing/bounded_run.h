@@ -20,8 +20,10 @@ using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingP
 
 /// What a bounded run did.
 struct BoundedResult {
+  UntangleResult untangled;
   RunResult run;
-  Deviation deviation;
+  Deviation deviation;  ///< of the result from the input; without a limit, in a plane, from what untangling
+                        ///< made of it
   double deviation_limit = 0;  ///< the one that held, over the diagonal
   /// Limits of the last step, counted by bit.
   std::array<std::size_t, 8> limits{};
@@ -40,6 +42,9 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 /// limit allows, its vertices are held where they were and the run is done again from the start, until the
 /// limit holds everywhere; in the end it always does, if with everything held. Likewise where a triangle lies
 /// upside down (inverted_triangles) that did not before. Throws as make_problem.
+///
+/// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
+/// holds for both together; what untangling alone takes is not held against the automatic one.
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,

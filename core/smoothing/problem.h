@@ -8,6 +8,7 @@
 
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
+#include "smoothing/untangle.h"
 #include "surface/frozen_surface.h"
 #include "surface/vertex_class.h"
 
@@ -54,6 +55,8 @@ struct ProblemOptions {
   BoundaryRule boundary = BoundaryRule::fixed;
   FeatureOptions features;
   SurfaceRule surface = SurfaceRule::project;
+  /// What a run does first about triangles that lie upside down.
+  UntangleRule untangle = UntangleRule::automatic;
   /// Vertices that the user holds.
   std::vector<Index> pinned;
   /// Vertices held because moving them would leave the surface by more than is allowed.
@@ -99,6 +102,12 @@ struct SmoothingProblem {
 /// another connectivity, UsageError for weights or an exponent out of range or a pinned vertex that does not
 /// exist.
 SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                              const ProblemOptions& options);
+
+/// Turns the triangles of a mesh that lie upside down by `untangle`, as far as the options let vertices move:
+/// the border stays whatever its rule, so do pinned vertices, flawed places, and the ridges and corners of
+/// sound surroundings. Does nothing where options.untangle is off. Throws UsageError as make_problem.
+UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& options);
 
 }  // namespace isorelax

@@ -118,6 +118,49 @@ TEST(SmoothCommand, NamesTheLineOfAVertexThatCannotBePinned) {
   EXPECT_NE(outcome.err.find(pins + ": line 2: names vertex 7"), std::string::npos) << outcome.err;
 }
 
+TEST(SmoothCommand, PinsByPredicate) {
+  const Workspace workspace;
+  const std::string square = workspace.path("square.off");
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + square).status, 0);
+  const std::string smooth =
+      "smooth " + square + " --boundary free --iterations 3 -o " + workspace.path("o.off") + " --pin ";
+  const Outcome all = run_program(smooth + "box:-inf,-inf,-inf:inf,inf,inf");
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_EQ(contents(workspace.path("o.off")), contents(square));
+  const Outcome some = run_program(smooth + "boundary --pin box:0.6,0.4,1:0.4,0.6,-1");
+  EXPECT_EQ(some.status, 0) << some.err;
+  EXPECT_NE(some.err.find("--pin boundary holds "), std::string::npos) << some.err;
+  EXPECT_NE(contents(workspace.path("o.off")), contents(square));
+  for (const char* wrong : {"box:", "box:1,2,3", "box:1,2:3,4", "box:a,0,0:1,1,1", "box:0,0,nan:1,1,1"}) {
+    const Outcome outcome = run_program(smooth + wrong);
+    EXPECT_EQ(outcome.status, 2) << wrong;
+    expect_one_error_line(outcome);
+  }
+  const Outcome missing = run_program(smooth + workspace.path("none.txt"));
+  EXPECT_EQ(missing.status, 3);
+  expect_one_error_line(missing);
+}
+
+TEST(SmoothCommand, UntanglesAndSaysSo) {
+  const Workspace workspace;
+  const std::string tangled = workspace.path("tangled.off");
+  const std::string report = workspace.path("report.json");
+  ASSERT_EQ(run_program("generate random --triangles 300 --tangle 0.2 -o " + tangled).status, 0);
+  const std::string smooth = "smooth " + tangled + " -o " + workspace.path("o.off") + " --report " + report;
+  const Outcome outcome = run_program(smooth);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("none is left"), std::string::npos) << outcome.err;
+  const Json untangled = Json::parse(contents(report));
+  EXPECT_GT(untangled["before"]["inverted"], 0);
+  EXPECT_EQ(untangled["after"]["inverted"], 0);
+  EXPECT_EQ(untangled["untangled"]["inverted_before"], untangled["before"]["inverted"]);
+  EXPECT_EQ(run_program(smooth + " --untangle off").status, 0);
+  EXPECT_EQ(Json::parse(contents(report))["after"]["inverted"], untangled["before"]["inverted"]);
+  const Outcome wrong = run_program(smooth + " --untangle maybe");
+  EXPECT_EQ(wrong.status, 2);
+  expect_one_error_line(wrong);
+}
+
 TEST(SmoothCommand, FindsOutBeforeTheWorkThatItCannotWrite) {
   const Workspace workspace;
   const std::string mesh = workspace.write("t.off", kTriangle);
