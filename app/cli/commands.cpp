@@ -8,6 +8,7 @@ std::unique_ptr<Command> make_smooth_command();
 std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_generate_command();
 std::unique_ptr<Command> make_benchmark_command();
+std::unique_ptr<Command> make_trace_command();
 std::unique_ptr<Command> make_view_command();
 
 std::vector<std::unique_ptr<Command>> all_commands() {
@@ -18,6 +19,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(make_render_command());
   commands.push_back(make_generate_command());
   commands.push_back(make_benchmark_command());
+  commands.push_back(make_trace_command());
   commands.push_back(make_view_command());
   return commands;
 }

@@ -1,34 +1,27 @@
 #include <CLI/App.hpp>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
-#include "cli/method_options.h"
-#include "cli/problem_options.h"
+#include "cli/smooth_run.h"
 #include "cli/table.h"
+#include "cli/watch.h"
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
-#include "quality/report.h"
-#include "smoothing/unguarded_run.h"
+#include "trace/recorder.h"
+#include "trace/trace_file.h"
 
 namespace isorelax::cli {
 namespace {
 
-/// What smoothing did, for the report and the summary.
-struct Outcome : UnguardedResult {
-  QualityReport before, after;
-};
-
 constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
                                 kLimitFold,   kLimitEnergy, kLimitSurface, kLimitConverged};
 
-Json to_json(const Outcome& outcome) {
+Json to_json(const SmoothOutcome& outcome) {
   Json object;
   object["before"] = cli::to_json(outcome.before);
   object["after"] = cli::to_json(outcome.after);
@@ -57,7 +50,7 @@ Json to_json(const Outcome& outcome) {
   return object;
 }
 
-std::string summary(const Outcome& outcome) {
+std::string summary(const SmoothOutcome& outcome) {
   const auto line = [](const char* label, double before, double after, const char* unit) {
     return std::string(label) + number_text(before) + " -> " + number_text(after) + unit;
   };
@@ -107,24 +100,17 @@ class SmoothCommand : public Command {
     app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
         ->required()
         ->type_name("OUT");
-    app_ = &app;
-    declare_method(app, method_);
-    declare_problem(app, problem_);
-    app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
-    app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
-        ->type_name("T")
-        ->check(number_between(0, std::numeric_limits<double>::max()));
-    app.add_option("--max-deviation", limit_.max,
-                   "Largest distance from the input surface, of its bounding-box diagonal (default 0.005, "
-                   "more where the mesh is coarse; inf: any)")
-        ->type_name("D")
-        ->check(number_between(0, std::numeric_limits<double>::infinity()));
+    run_.declare(app);
+    app.add_option("--trace", trace_, "Record every iteration in this file, for isorelax trace")
+        ->type_name("FILE");
+    watch_.declare(app);
     app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
-    const Method method = parse_method(*app_, method_);
+    run_.check();
+    watch_.check();
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
     MeshFile file = read_input_file(console, input_);
@@ -132,7 +118,8 @@ class SmoothCommand : public Command {
     // Before the long work, not after it.
     check_writable(output_);
     if (!report_.empty()) check_writable(report_);
-    const Outcome outcome = smooth(console, mesh, method);
+    if (!trace_.empty()) check_writable(trace_);
+    const SmoothOutcome outcome = smooth(console, mesh);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
     if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
     if (const auto fault = fault_of(outcome)) {
@@ -154,54 +141,45 @@ class SmoothCommand : public Command {
 
  private:
   /// Why the result of an unguarded run may not be written; a guarded one has no fault.
-  [[nodiscard]] std::optional<std::string> fault_of(const Outcome& outcome) const {
+  [[nodiscard]] std::optional<std::string> fault_of(const SmoothOutcome& outcome) const {
     if (!outcome.turned_over.empty()) {
       return "without a guard " + std::to_string(outcome.turned_over.size()) +
              " triangles were turned over, the first " + std::to_string(outcome.turned_over.front());
     }
-    if (limit_.max && outcome.deviation.max > *limit_.max) {
+    if (run_.limit().max && outcome.deviation.max > *run_.limit().max) {
       return "without a guard the surface went " + number_text(outcome.deviation.max) +
              " from the input, farther than --max-deviation allows";
     }
     return std::nullopt;
   }
 
-  Outcome smooth(Console& console, TriangleMesh& mesh, const Method& method) const {
-    ProblemOptions options = parse_problem(console, problem_, mesh);
-    if (!method.minimises) options.exponent = 1;  // of the energy that is reported
-    const Topology topology(mesh.triangles, mesh.vertex_count());
-    const auto measure = [&] {
-      return measure_quality(mesh.positions, mesh.triangles, topology, options.threads);
-    };
-    Outcome outcome;
-    outcome.before = measure();
-    try {
-      Progress progress(console, "smoothing");
-      const auto show = [&](unsigned iteration, const StepRecord&, std::span<const Vec3>) {
-        progress.update(static_cast<double>(iteration) / run_.iterations,
-                        "iteration " + std::to_string(iteration));
-        return true;
-      };
-      if (method.guarded) {
-        static_cast<BoundedResult&>(outcome) =
-            run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show);
-      } else {
-        static_cast<UnguardedResult&>(outcome) =
-            run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);
-      }
-    } catch (const MeshError& error) {  // gets the name of its file
-      throw MeshError(input_ + ": " + error.what());
+  /// Runs, recording and watching as asked.
+  SmoothOutcome smooth(Console& console, TriangleMesh& mesh) {
+    if (trace_.empty() && !watch_.wanted()) return run_.smooth(console, input_, mesh);
+    Trace about;
+    about.program = "isorelax " ISORELAX_VERSION;
+    about.input = input_;
+    about.arguments = run_.words();
+    about.resources = run_.resources();
+    TraceRecorder recorder(std::move(about), mesh);
+    const SmoothOutcome outcome =
+        run_.smooth(console, input_, mesh,
+                    [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
+                      recorder.add(iteration, record, positions);
+                      return watch_.look(console, recorder.trace(), record, positions);
+                    });
+    watch_.finish(console, recorder.trace());
+    if (!trace_.empty()) {
+      recorder.trace().stopped = name_of(outcome.run.stopped);
+      recorder.trace().stopped_because = to_string(outcome.run.stopped);
+      write_trace(trace_, recorder.trace());
     }
-    outcome.after = measure();
     return outcome;
   }
 
-  std::string input_, output_, report_;
-  CLI::App* app_ = nullptr;
-  MethodSpec method_;
-  ProblemSpec problem_;
-  RunOptions run_;
-  DeviationLimit limit_;
+  std::string input_, output_, report_, trace_;
+  SmoothRun run_;
+  Watch watch_;
   bool quiet_ = false;
 };
 

@@ -42,6 +42,9 @@ struct MeshFile {
 /// index out of range, a coordinate that is not finite, no triangle at all.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
 
+/// All bytes of a regular file. Throws InputError.
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
+
 /// Throws the InputError that opening `path` would meet; looks at nothing in it.
 void check_readable(const std::filesystem::path& path);
 

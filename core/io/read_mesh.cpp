@@ -49,7 +49,7 @@ std::size_t regular_size(const Descriptor& file, const std::string& name) {
   return static_cast<std::size_t>(status.st_size);
 }
 
-std::string read_bytes(const std::filesystem::path& path, const std::string& name) {
+std::string read_regular_file(const std::filesystem::path& path, const std::string& name) {
   const Descriptor file(open_or_fail(path, name));
   std::string bytes(regular_size(file, name), '\0');
   std::size_t done = 0;
@@ -86,6 +86,10 @@ MeshFile read_format(FileFormat format, std::string_view bytes, const std::strin
 
 }  // namespace
 
+std::string read_bytes(const std::filesystem::path& path) {
+  return read_regular_file(path, one_line(path.string()));
+}
+
 void check_readable(const std::filesystem::path& path) {
   const std::string name = one_line(path.string());
   regular_size(Descriptor(open_or_fail(path, name)), name);
@@ -93,7 +97,7 @@ void check_readable(const std::filesystem::path& path) {
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   const std::string name = one_line(path.string());
-  const std::string bytes = read_bytes(path, name);
+  const std::string bytes = read_regular_file(path, name);
   if (bytes.empty()) {
     throw InputError(name, "", "the file is empty");
   }

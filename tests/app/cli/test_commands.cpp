@@ -367,11 +367,78 @@ TEST(SmoothCommand, LeavesNothingBehindWhereTheResultDoesNotFit) {
   EXPECT_TRUE(std::filesystem::is_empty(workspace.path("sub")));
 }
 
+TEST(TraceCommand, ShowsExportsComparesAndReplaysARun) {
+  const Workspace workspace;
+  const std::string in = workspace.path("in.off");
+  const std::string trace = workspace.path("run.trace");
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + in).status, 0);
+  const std::string smooth = "smooth " + in + " -o " + workspace.path("o.off") + " --quiet --mu 0.25 ";
+  ASSERT_EQ(run_program(smooth + "--iterations 12 --trace " + trace).status, 0);
+  ASSERT_EQ(run_program(smooth + "--iterations 5 --trace " + workspace.path("short.trace")).status, 0);
+
+  const Outcome shown = run_program("trace show " + trace);
+  EXPECT_EQ(shown.status, 0);
+  EXPECT_NE(shown.out.find("--mu 0.25"), std::string::npos) << shown.out;
+  EXPECT_EQ(Json::parse(run_program("trace show --json " + trace).out)["iterations"].size(), 12U);
+  EXPECT_EQ(run_program("trace replay " + trace).status, 0);
+  EXPECT_EQ(run_program("trace diff " + trace + " " + trace).status, 0);
+  const Outcome differs = run_program("trace diff --json " + trace + " " + workspace.path("short.trace"));
+  EXPECT_EQ(differs.status, 1);
+  EXPECT_EQ(Json::parse(differs.out)["common_iterations"], 5);
+  EXPECT_TRUE(Json::parse(differs.out)["parting"].is_null());
+
+  const std::string exported = "trace export " + trace + " --iterations every:5 ";
+  EXPECT_EQ(run_program(exported + "--csv " + workspace.path("t.csv") + " --vtk " + workspace.path("v") +
+                        " --meshes " + workspace.path("m"))
+                .status,
+            0);
+  EXPECT_EQ(run_program("quality --json " + workspace.path("m/iteration_00012.off")).out,
+            run_program("quality --json " + workspace.path("o.off")).out);
+  EXPECT_TRUE(std::filesystem::exists(workspace.path("v/trace.pvd")));
+  EXPECT_EQ(run_program("trace export " + trace).status, 2);
+}
+
+TEST(TraceCommand, RefusesWhatIsNoTraceAndWhatHasChangedSince) {
+  const Workspace workspace;
+  const std::string in = workspace.write("t.off", kTriangle);
+  const Outcome foreign = run_program("trace show " + in);
+  EXPECT_EQ(foreign.status, 3);
+  expect_one_error_line(foreign);
+  const std::string trace = workspace.path("run.trace");
+  ASSERT_EQ(run_program("generate random --triangles 100 -o " + workspace.path("in.off")).status, 0);
+  const std::string pins = workspace.write("pins.txt", "40\n");
+  ASSERT_EQ(run_program("smooth " + workspace.path("in.off") + " -o " + workspace.path("o.off") + " --pin " +
+                        pins + " --trace " + trace)
+                .status,
+            0);
+  EXPECT_EQ(run_program("trace replay " + trace).status, 0);
+  (void)workspace.write("pins.txt", "41\n");
+  const Outcome changed = run_program("trace replay " + trace);
+  EXPECT_EQ(changed.status, 3);
+  expect_one_error_line(changed);
+}
+
+TEST(SmoothCommand, StopsAndTellsWherePredicatesHold) {
+  const Workspace workspace;
+  const std::string in = workspace.path("in.off");
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + in).status, 0);
+  const std::string smooth = "smooth " + in + " -o " + workspace.path("o.off");
+  const Outcome stopped = run_program(smooth + " --break 'iteration == 3' --log 'iteration == 2 || stop'");
+  EXPECT_EQ(stopped.status, 0);
+  EXPECT_NE(stopped.err.find("iteration 2: "), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("stopped because iteration == 3"), std::string::npos) << stopped.err;
+  const Outcome ended = run_program(smooth + " --iterations 4 --tolerance 0 --log stop");
+  EXPECT_NE(ended.err.find("iteration 4: "), std::string::npos) << ended.err;
+  const Outcome mistaken = run_program(smooth + " --break 'min_angle < '");
+  EXPECT_EQ(mistaken.status, 2);
+  EXPECT_NE(mistaken.err.find("column 13"), std::string::npos) << mistaken.err;
+}
+
 TEST(Help, OfEveryCommandHasAnExample) {
   const Outcome all = run_program("--help");
   EXPECT_EQ(all.status, 0);
-  for (const std::string& name :
-       std::vector<std::string>{"info", "quality", "smooth", "render", "generate", "benchmark", "view"}) {
+  for (const std::string& name : std::vector<std::string>{"info", "quality", "smooth", "render", "generate",
+                                                          "benchmark", "trace", "view"}) {
     EXPECT_NE(all.out.find(name), std::string::npos);
     const Outcome one = run_program(name + " --help");
     EXPECT_EQ(one.status, 0);

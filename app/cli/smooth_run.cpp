@@ -1,0 +1,109 @@
+#include "cli/smooth_run.h"
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "cli/checks.h"
+#include "cli/console.h"
+#include "io/mesh_file.h"
+#include "mesh/error.h"
+
+namespace isorelax::cli {
+namespace {
+
+bool is_file(const std::string& text) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(text, ignored);
+}
+
+}  // namespace
+
+void SmoothRun::declare(CLI::App& app) {
+  app_ = &app;
+  const std::vector<CLI::Option*> others = app.get_options();
+  declare_method(app, method_);
+  declare_problem(app, problem_);
+  app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
+  app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
+      ->type_name("T")
+      ->check(number_between(0, std::numeric_limits<double>::max()));
+  app.add_option("--max-deviation", limit_.max,
+                 "Largest distance from the input surface, of its bounding-box diagonal (default 0.005, "
+                 "more where the mesh is coarse; inf: any)")
+      ->type_name("D")
+      ->check(number_between(0, std::numeric_limits<double>::infinity()));
+  for (const CLI::Option* option : app.get_options()) {
+    if (std::ranges::find(others, option) == others.end()) options_.push_back(option);
+  }
+}
+
+void SmoothRun::check() const {
+  (void)parse_method(*app_, method_);
+}
+
+std::vector<std::string> SmoothRun::words() const {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : options_) {
+    for (const std::string& value : option->results()) {
+      words.push_back(option->get_name());
+      words.push_back(value);
+    }
+  }
+  return words;
+}
+
+std::vector<TraceResource> SmoothRun::resources() const {
+  std::vector<TraceResource> files;
+  for (const CLI::Option* option : options_) {
+    for (const std::string& value : option->results())
+      if (is_file(value)) files.push_back({value, hash_of(read_bytes(value))});
+  }
+  return files;
+}
+
+SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, TriangleMesh& mesh,
+                                const StepObserver& observer) const {
+  const Method method = parse_method(*app_, method_);
+  ProblemOptions options = parse_problem(console, problem_, mesh);
+  if (!method.minimises) options.exponent = 1;  // of the energy that is reported
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  const auto measure = [&] {
+    return measure_quality(mesh.positions, mesh.triangles, topology, options.threads);
+  };
+  SmoothOutcome outcome;
+  outcome.before = measure();
+  try {
+    Progress progress(console, "smoothing");
+    const auto show = [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
+      progress.update(static_cast<double>(iteration) / run_.iterations,
+                      "iteration " + std::to_string(iteration));
+      return !observer || observer(iteration, record, positions);
+    };
+    if (method.guarded) {
+      static_cast<BoundedResult&>(outcome) =
+          run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show);
+    } else {
+      static_cast<UnguardedResult&>(outcome) =
+          run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);
+    }
+  } catch (const MeshError& error) {  // gets the name of its file
+    throw MeshError(input + ": " + error.what());
+  }
+  outcome.after = measure();
+  return outcome;
+}
+
+void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words) {
+  run.declare(app);
+  std::ranges::reverse(words);  // CLI11 takes them from the back
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string("the arguments of the trace are not understood: ") + error.what());
+  }
+  run.check();
+}
+
+}  // namespace isorelax::cli

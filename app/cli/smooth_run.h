@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/method_options.h"
+#include "cli/problem_options.h"
+#include "quality/report.h"
+#include "smoothing/unguarded_run.h"
+#include "trace/trace.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace isorelax::cli {
+
+class Console;
+
+/// What smoothing did, for the report and the summary.
+struct SmoothOutcome : UnguardedResult {
+  QualityReport before, after;
+};
+
+/// The options of `smooth` that decide what happens to a mesh: all but its files and what is printed. The
+/// same words do the same again: a trace keeps them.
+class SmoothRun {
+ public:
+  SmoothRun() = default;
+  SmoothRun(const SmoothRun&) = delete;
+  SmoothRun& operator=(const SmoothRun&) = delete;
+
+  /// Declares the options. `app` and this live until the run.
+  void declare(CLI::App& app);
+  /// Throws UsageError for typed options that make no sense together.
+  void check() const;
+  /// The typed options as words, for a trace.
+  [[nodiscard]] std::vector<std::string> words() const;
+  /// Files that the typed options name, with their hashes now. Throws InputError.
+  [[nodiscard]] std::vector<TraceResource> resources() const;
+  void set_threads(unsigned threads) { problem_.threads = threads; }
+
+  /// Smooths in place, with progress on the console. `input` names the mesh in errors. Throws InputError,
+  /// MeshError, UsageError.
+  SmoothOutcome smooth(Console& console, const std::string& input, TriangleMesh& mesh,
+                       const StepObserver& observer = {}) const;
+
+  [[nodiscard]] const DeviationLimit& limit() const { return limit_; }
+
+ private:
+  CLI::App* app_ = nullptr;
+  std::vector<const CLI::Option*> options_;
+  MethodSpec method_;
+  ProblemSpec problem_;
+  RunOptions run_;
+  DeviationLimit limit_;
+};
+
+/// Reads the words of SmoothRun::words() into `run`. `app` is a fresh one that lives as long. Throws
+/// UsageError.
+void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words);
+
+}  // namespace isorelax::cli

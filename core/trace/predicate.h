@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "trace/trace.h"
+
+namespace isorelax {
+
+/// What a predicate can ask about: one iteration of a run.
+struct Moment {
+  std::size_t iteration = 0;  ///< from 1
+  const TraceIteration& numbers;
+  const StepRecord& record;
+  std::span<const Vec3> positions;  ///< after the step
+  std::span<const Triangle> triangles;
+  std::size_t inverted_at_start = 0;
+  bool stop = false;  ///< the run ends with this iteration
+};
+
+/// A mistake in the text of a predicate, and where it stands.
+struct PredicateMistake {
+  std::size_t column = 0;  ///< from 1
+  std::string reason;
+};
+
+/// A condition on the iterations of a run, such as
+///   min_angle < 5      energy_rose      folded > 0      class_changed      iteration == 40      stop
+///   vertex(812).alpha < 0.1 && !energy_rose      triangle(3).min_angle < 2 * min_angle
+/// Numbers, names, vertex(ID).FIELD, triangle(ID).FIELD; in rising order of binding: || ; && ; < <= > >= ==
+/// != ;
+/// + - ; * / ; - ! ; parentheses. Everything is a number; true is 1, and what is not 0 holds.
+class Predicate {
+ public:
+  /// Throws UsageError: the text, the column and what was expected there. Ids are looked at when evaluating.
+  explicit Predicate(std::string text);
+
+  /// Whether it holds. A vertex or triangle that does not exist has no value: comparisons with it are false.
+  [[nodiscard]] bool holds(const Moment& moment) const;
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+  /// Every name and field with its meaning, one per line: for --help and the editor.
+  [[nodiscard]] static std::string reference();
+  /// The first mistake in the text; none when it is a predicate.
+  [[nodiscard]] static std::optional<PredicateMistake> check(std::string_view text);
+
+  using Value = std::function<double(const Moment&)>;
+
+ private:
+  std::string text_;
+  Value value_;
+};
+
+}  // namespace isorelax

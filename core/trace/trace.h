@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+#include "smoothing/step_record.h"
+
+namespace isorelax {
+
+/// What the worst triangles are at one iteration; definitions as in QualityReport.
+struct TraceQuality {
+  double min_angle_deg = 0;
+  double max_angle_deg = 0;
+  double mean_min_angle_deg = 0;
+  std::size_t inverted = 0;
+
+  bool operator==(const TraceQuality&) const = default;
+};
+
+/// One iteration of a recorded run: the step's totals, the quality after it, and its moves.
+struct TraceIteration {
+  StepTotals before, after;
+  double largest_move = 0;
+  std::size_t fold_passes = 0;
+  std::size_t energy_passes = 0;
+  std::size_t moved = 0;
+  /// Vertices limited by each bit of Limit, in bit order.
+  std::array<std::size_t, 8> limits{};
+  /// Vertices whose tangent class is another one than in the step before.
+  std::size_t class_changes = 0;
+  TraceQuality quality;
+  std::string delta;  ///< to the positions after the step from those before (position_delta.h)
+};
+
+/// A file that a run read beside its mesh: where it was, and the hash of what stood in it.
+struct TraceResource {
+  std::string path;
+  std::string hash;
+
+  bool operator==(const TraceResource&) const = default;
+};
+
+/// A recorded run, whole: what it began with and everything it did.
+struct Trace {
+  std::string program;  ///< name and version of the program that ran
+  std::string input;    ///< where the mesh came from
+  /// The run as words of a command line, without input and output: `isorelax smooth IN -o OUT WORDS...` does
+  /// it again.
+  std::vector<std::string> arguments;
+  std::vector<TraceResource> resources;
+  std::vector<Vec3> positions;  ///< at the start
+  std::vector<Triangle> triangles;
+  TraceQuality quality;  ///< at the start
+  std::vector<TraceIteration> iterations;
+  std::string stopped;          ///< why the run ended, in one word
+  std::string stopped_because;  ///< and in one sentence
+
+  /// Bytes that the record of all iterations takes in memory.
+  [[nodiscard]] std::size_t size_in_memory() const;
+};
+
+/// Walks through the positions of a trace in both directions; each iteration on the way costs one delta.
+/// Keeps a reference to the trace.
+class TraceCursor {
+ public:
+  explicit TraceCursor(const Trace& trace) : trace_(trace), positions_(trace.positions) {}
+
+  /// Goes to the positions after that many iterations (0: the start). Throws Error for one that is not there
+  /// and for a damaged delta.
+  const std::vector<Vec3>& go_to(std::size_t iteration);
+
+  [[nodiscard]] std::size_t iteration() const { return iteration_; }
+  [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
+
+ private:
+  const Trace& trace_;
+  std::vector<Vec3> positions_;
+  std::size_t iteration_ = 0;
+};
+
+/// A hash of bytes for telling whether they are still the same: FNV-1a, 64 bits.
+[[nodiscard]] std::uint64_t fnv1a(std::string_view bytes);
+/// The same as 16 hexadecimal digits.
+[[nodiscard]] std::string hash_of(std::string_view bytes);
+
+}  // namespace isorelax

@@ -1,0 +1,175 @@
+#include "trace/trace_export.h"
+
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.h"
+#include "io/mesh_file.h"
+#include "mesh/error.h"
+#include "quality/triangle_metrics.h"
+#include "trace/trace_file.h"
+
+namespace isorelax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Number>
+void append(std::string& text, Number value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  text.append(buffer.data(), end);
+}
+
+std::string numbered(std::size_t iteration, const std::string& extension) {
+  std::string digits = std::to_string(iteration);
+  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
+  return "iteration_" + digits + extension;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(folder.string(), "cannot be made: " + error.message());
+}
+
+class VtkPolyData {
+ public:
+  explicit VtkPolyData(const Trace& trace) : trace_(trace) {}
+
+  std::string text(std::span<const Vec3> positions) {
+    text_ =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+        "<PolyData><Piece NumberOfPoints=\"" +
+        std::to_string(positions.size()) +
+        "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+        "NumberOfPolys=\"" +
+        std::to_string(trace_.triangles.size()) + "\">\n<Points>\n";
+    array("Float64", "Points", 3);
+    for (const Vec3& p : positions) vector(p);
+    close();
+    text_ += "</Points>\n<Polys>\n";
+    array("Int64", "connectivity", 1);
+    for (const Triangle& t : trace_.triangles)
+      for (const Index v : t) item(v);
+    close();
+    array("Int64", "offsets", 1);
+    for (std::size_t t = 1; t <= trace_.triangles.size(); ++t) item(3 * t);
+    close();
+    text_ += "</Polys>\n<PointData Vectors=\"displacement\">\n";
+    array("Float64", "displacement", 3);
+    for (std::size_t v = 0; v < positions.size(); ++v) vector(positions[v] - trace_.positions[v]);
+    close();
+    text_ += "</PointData>\n<CellData Scalars=\"min_angle_deg\">\n";
+    add_metric(positions, "min_angle_deg", &TriangleMetrics::min_angle_deg);
+    add_metric(positions, "max_angle_deg", &TriangleMetrics::max_angle_deg);
+    add_metric(positions, "area", &TriangleMetrics::area);
+    text_ += "</CellData>\n</Piece></PolyData>\n</VTKFile>\n";
+    return std::move(text_);
+  }
+
+ private:
+  void array(const char* type, const char* name, int components) {
+    text_ += std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+             std::to_string(components) + "\" format=\"ascii\">\n";
+  }
+  void close() { text_ += "</DataArray>\n"; }
+  template <typename Number>
+  void item(Number value) {
+    append(text_, value);
+    text_ += '\n';
+  }
+  void vector(const Vec3& p) {
+    append(text_, p.x());
+    text_ += ' ';
+    append(text_, p.y());
+    text_ += ' ';
+    item(p.z());
+  }
+  void add_metric(std::span<const Vec3> x, const char* name, double TriangleMetrics::*member) {
+    array("Float64", name, 1);
+    for (const Triangle& t : trace_.triangles) item(measure_triangle(x[t[0]], x[t[1]], x[t[2]]).*member);
+    close();
+  }
+
+  const Trace& trace_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string trace_csv(const Trace& trace) {
+  std::string text = "iteration";
+  const TraceIteration none;
+  visit_numbers(none, [&](std::string_view name, const auto&) { text.append(",").append(name); });
+  text += '\n';
+  TraceIteration start;
+  start.quality = trace.quality;
+  if (!trace.iterations.empty()) start.after = trace.iterations.front().before;
+  for (std::size_t k = 0; k <= trace.iterations.size(); ++k) {
+    text += std::to_string(k);
+    visit_numbers(k == 0 ? start : trace.iterations[k - 1], [&](std::string_view, const auto& value) {
+      text += ',';
+      append(text, value);
+    });
+    text += '\n';
+  }
+  return text;
+}
+
+std::string trace_json(const Trace& trace) {
+  Json json;
+  json["program"] = trace.program;
+  json["input"] = trace.input;
+  json["arguments"] = trace.arguments;
+  json["vertices"] = trace.positions.size();
+  json["triangles"] = trace.triangles.size();
+  json["stopped"] = trace.stopped;
+  json["stopped_because"] = trace.stopped_because;
+  Json iterations = Json::array();
+  for (std::size_t k = 1; k <= trace.iterations.size(); ++k) {
+    Json one{{"iteration", k}};
+    visit_numbers(trace.iterations[k - 1],
+                  [&](std::string_view name, const auto& value) { one[std::string(name)] = value; });
+    iterations.push_back(std::move(one));
+  }
+  json["iterations"] = std::move(iterations);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::filesystem::path> export_meshes(const Trace& trace,
+                                                 const std::vector<std::size_t>& iterations,
+                                                 const std::filesystem::path& folder,
+                                                 const std::string& extension) {
+  make_folder(folder);
+  TraceCursor cursor(trace);
+  std::vector<std::filesystem::path> files;
+  for (const std::size_t k : iterations) {
+    files.push_back(folder / numbered(k, extension));
+    (void)write_mesh(files.back(), TriangleMesh{cursor.go_to(k), trace.triangles, {}});
+  }
+  return files;
+}
+
+std::vector<std::filesystem::path> export_vtk_series(const Trace& trace,
+                                                     const std::vector<std::size_t>& iterations,
+                                                     const std::filesystem::path& folder) {
+  make_folder(folder);
+  TraceCursor cursor(trace);
+  std::vector<std::filesystem::path> files;
+  std::string index =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<Collection>\n";
+  for (const std::size_t k : iterations) {
+    const std::string name = numbered(k, ".vtp");
+    files.push_back(folder / name);
+    write_file_atomically(files.back(), VtkPolyData(trace).text(cursor.go_to(k)));
+    index += "<DataSet timestep=\"" + std::to_string(k) + "\" file=\"" + name + "\"/>\n";
+  }
+  files.push_back(folder / "trace.pvd");
+  write_file_atomically(files.back(), index + "</Collection>\n</VTKFile>\n");
+  return files;
+}
+
+}  // namespace isorelax

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "trace/trace.h"
+
+namespace isorelax {
+
+/// Trace files. After the eight letters of kTraceMagic and a version stand parts, one after the other:
+///   name (4 letters), size of the content (8 bytes), size as stored (8), what is stored, hash (8)
+/// HEAD: JSON: program, input, arguments, resources, counts, quality at the start, why the run stopped
+/// MESH: positions and triangles; then for each iteration STEP: its numbers, and MOVE: its delta; DONE:
+/// nothing. Contents are compressed with zstd; the hash is FNV-1a over all of the part. Numbers are little
+/// endian.
+inline constexpr std::string_view kTraceMagic = "ISOTRACE";
+inline constexpr std::uint32_t kTraceVersion = 1;
+
+/// The bytes of a trace file.
+[[nodiscard]] std::string trace_bytes(const Trace& trace);
+
+/// Writes a trace whole or not at all. Throws OutputError.
+void write_trace(const std::filesystem::path& path, const Trace& trace);
+
+/// Reads a trace from its bytes; `name` stands in messages. Throws InputError, with the byte where it begins,
+/// for anything that is foreign, of another version, damaged or missing.
+[[nodiscard]] Trace parse_trace(std::string_view bytes, const std::string& name);
+
+/// Throws InputError.
+[[nodiscard]] Trace read_trace(const std::filesystem::path& path);
+
+/// The numbers of one iteration, in the order of the file: for each a name, and how to read and write it.
+template <typename Iteration, typename Visit>
+void visit_numbers(Iteration& iteration, const Visit& visit) {
+  visit("energy_before", iteration.before.energy);
+  visit("shape_before", iteration.before.shape);
+  visit("area_before", iteration.before.area);
+  visit("worst_energy_before", iteration.before.worst_energy);
+  visit("gradient_norm", iteration.before.gradient_norm);
+  visit("energy", iteration.after.energy);
+  visit("shape", iteration.after.shape);
+  visit("area", iteration.after.area);
+  visit("worst_energy", iteration.after.worst_energy);
+  visit("largest_move", iteration.largest_move);
+  visit("fold_passes", iteration.fold_passes);
+  visit("energy_passes", iteration.energy_passes);
+  visit("moved", iteration.moved);
+  for (std::size_t bit = 0; bit < iteration.limits.size(); ++bit)
+    visit("limited_" + std::string(limit_name(static_cast<Limit>(1U << bit))), iteration.limits[bit]);
+  visit("class_changes", iteration.class_changes);
+  visit("min_angle_deg", iteration.quality.min_angle_deg);
+  visit("max_angle_deg", iteration.quality.max_angle_deg);
+  visit("mean_min_angle_deg", iteration.quality.mean_min_angle_deg);
+  visit("inverted", iteration.quality.inverted);
+}
+
+}  // namespace isorelax

@@ -1,0 +1,149 @@
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "io/mesh_file.h"
+#include "mesh/error.h"
+#include "trace/position_delta.h"
+#include "trace/trace_file.h"
+
+namespace isorelax {
+namespace {
+
+using Json = nlohmann::json;
+
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  Trace read() {
+    if (bytes_.substr(0, kTraceMagic.size()) != kTraceMagic) fail(0, "is not a trace of isorelax");
+    at_ = kTraceMagic.size();
+    const auto version = number<std::uint32_t>();
+    if (version != kTraceVersion) {
+      fail(kTraceMagic.size(), "is of version " + std::to_string(version) + "; this program reads version " +
+                                   std::to_string(kTraceVersion));
+    }
+    read_head();
+    read_mesh();
+    for (TraceIteration& iteration : trace_.iterations) read_iteration(iteration);
+    (void)part("DONE");
+    if (at_ != bytes_.size()) fail(at_, "something follows the end of the trace");
+    return std::move(trace_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t place, const std::string& reason) const {
+    throw InputError(name_, "byte " + std::to_string(place), reason);
+  }
+
+  template <typename T>
+  T number() {
+    if (bytes_.size() - at_ < sizeof(T)) fail(bytes_.size(), "the file ends in the middle of a part");
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  /// A part as stored, its hash checked.
+  std::string_view stored(std::string_view expected, std::uint64_t& size) {
+    const std::size_t start = at_;
+    if (at_ == bytes_.size()) fail(at_, "the file ends before its part " + std::string(expected));
+    if (bytes_.substr(at_, expected.size()) != expected)
+      fail(at_, "expected the part " + std::string(expected) + ": the file is damaged");
+    at_ += expected.size();
+    size = number<std::uint64_t>();
+    const auto length = number<std::uint64_t>();
+    if (length > bytes_.size() - at_)
+      fail(start, "the part " + std::string(expected) + " goes on after the end of the file");
+    const std::string_view packed = bytes_.substr(at_, length);
+    at_ += length;
+    const std::uint64_t computed = fnv1a(bytes_.substr(start, at_ - start));
+    if (number<std::uint64_t>() != computed)
+      fail(start, "the part " + std::string(expected) + " is damaged: its checksum does not fit");
+    part_start_ = start;
+    return packed;
+  }
+
+  std::string part(std::string_view expected) {
+    std::uint64_t size = 0;
+    const std::string_view packed = stored(expected, size);
+    std::string content;
+    if (!decompress(packed, size, content))
+      fail(part_start_, "the part " + std::string(expected) + " cannot be unpacked");
+    return content;
+  }
+
+  void read_head() {
+    const Json json = Json::parse(part("HEAD"), nullptr, false);
+    try {
+      trace_.program = json.at("program").get<std::string>();
+      trace_.input = json.at("input").get<std::string>();
+      trace_.arguments = json.at("arguments").get<std::vector<std::string>>();
+      for (const Json& file : json.at("resources"))
+        trace_.resources.push_back({file.at("path").get<std::string>(), file.at("hash").get<std::string>()});
+      vertices_ = json.at("vertices").get<std::size_t>();
+      triangles_ = json.at("triangles").get<std::size_t>();
+      const auto iterations = json.at("iterations").get<std::size_t>();
+      // Each takes bytes of its own: a lying count asks for no more memory than the file has.
+      if (iterations > bytes_.size()) fail(part_start_, "promises more iterations than the file can hold");
+      trace_.iterations.resize(iterations);
+      trace_.quality = {json.at("min_angle_deg").get<double>(), json.at("max_angle_deg").get<double>(),
+                        json.at("mean_min_angle_deg").get<double>(), json.at("inverted").get<std::size_t>()};
+      trace_.stopped = json.at("stopped").get<std::string>();
+      trace_.stopped_because = json.at("stopped_because").get<std::string>();
+    } catch (const Json::exception& error) {
+      fail(part_start_, std::string("the head cannot be understood: ") + error.what());
+    }
+  }
+
+  void read_mesh() {
+    const std::string content = part("MESH");
+    if (content.size() != vertices_ * sizeof(Vec3) + triangles_ * sizeof(Triangle))
+      fail(part_start_, "the mesh has another size than the head says");
+    trace_.positions.resize(vertices_);
+    trace_.triangles.resize(triangles_);
+    for (Index v = 0; v < vertices_; ++v)
+      std::memcpy(trace_.positions[v].data(), content.data() + v * sizeof(Vec3), sizeof(Vec3));
+    std::memcpy(trace_.triangles.data(), content.data() + vertices_ * sizeof(Vec3),
+                triangles_ * sizeof(Triangle));
+    for (const Triangle& t : trace_.triangles) {
+      for (const Index v : t) {
+        if (v >= vertices_) fail(part_start_, "a triangle names a vertex that is not there");
+      }
+    }
+  }
+
+  void read_iteration(TraceIteration& iteration) {
+    const std::string numbers = part("STEP");
+    std::size_t at = 0;
+    visit_numbers(iteration, [&](std::string_view, auto& value) {
+      if (numbers.size() - at < sizeof(value)) fail(part_start_, "an iteration lacks numbers");
+      std::memcpy(&value, numbers.data() + at, sizeof(value));
+      at += sizeof(value);
+    });
+    std::uint64_t size = 0;
+    iteration.delta = stored("MOVE", size);
+    if (size != vertices_ * sizeof(Vec3)) fail(part_start_, "the moves are those of another mesh");
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  std::size_t part_start_ = 0;
+  std::size_t vertices_ = 0;
+  std::size_t triangles_ = 0;
+  Trace trace_;
+};
+
+}  // namespace
+
+Trace parse_trace(std::string_view bytes, const std::string& name) {
+  return Reader(bytes, name).read();
+}
+
+Trace read_trace(const std::filesystem::path& path) {
+  return parse_trace(read_bytes(path), path.string());
+}
+
+}  // namespace isorelax

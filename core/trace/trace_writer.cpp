@@ -1,0 +1,79 @@
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.h"
+#include "trace/position_delta.h"
+#include "trace/trace_file.h"
+
+namespace isorelax {
+namespace {
+
+template <typename T>
+void append(std::string& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const std::size_t at = bytes.size();
+  bytes.resize(at + sizeof(T));
+  std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+
+void append_packed(std::string& bytes, std::string_view name, std::uint64_t size, std::string_view packed) {
+  const std::size_t start = bytes.size();
+  bytes.append(name);
+  append(bytes, size);
+  append(bytes, std::uint64_t{packed.size()});
+  bytes.append(packed);
+  append(bytes, fnv1a(std::string_view(bytes).substr(start)));
+}
+
+void append_part(std::string& bytes, std::string_view name, std::string_view content) {
+  append_packed(bytes, name, content.size(), compress(content));
+}
+
+std::string head(const Trace& trace) {
+  nlohmann::ordered_json json;
+  json["program"] = trace.program;
+  json["input"] = trace.input;
+  json["arguments"] = trace.arguments;
+  json["resources"] = nlohmann::ordered_json::array();
+  for (const TraceResource& file : trace.resources)
+    json["resources"].push_back({{"path", file.path}, {"hash", file.hash}});
+  json["vertices"] = trace.positions.size();
+  json["triangles"] = trace.triangles.size();
+  json["iterations"] = trace.iterations.size();
+  json["min_angle_deg"] = trace.quality.min_angle_deg;
+  json["max_angle_deg"] = trace.quality.max_angle_deg;
+  json["mean_min_angle_deg"] = trace.quality.mean_min_angle_deg;
+  json["inverted"] = trace.quality.inverted;
+  json["stopped"] = trace.stopped;
+  json["stopped_because"] = trace.stopped_because;
+  // A file name may hold bytes that are not text.
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string trace_bytes(const Trace& trace) {
+  std::string bytes(kTraceMagic);
+  append(bytes, kTraceVersion);
+  append_part(bytes, "HEAD", head(trace));
+  std::string mesh;
+  mesh.reserve(trace.positions.size() * sizeof(Vec3) + trace.triangles.size() * sizeof(Triangle));
+  for (const Vec3& p : trace.positions)
+    for (const double x : p) append(mesh, x);
+  for (const Triangle& t : trace.triangles) append(mesh, t);
+  append_part(bytes, "MESH", mesh);
+  for (const TraceIteration& iteration : trace.iterations) {
+    std::string numbers;
+    visit_numbers(iteration, [&](std::string_view, const auto& value) { append(numbers, value); });
+    append_part(bytes, "STEP", numbers);
+    append_packed(bytes, "MOVE", trace.positions.size() * sizeof(Vec3), iteration.delta);
+  }
+  append_part(bytes, "DONE", "");
+  return bytes;
+}
+
+void write_trace(const std::filesystem::path& path, const Trace& trace) {
+  write_file_atomically(path, trace_bytes(trace));
+}
+
+}  // namespace isorelax

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/trace/recorded.h"
+#include "mesh/error.h"
+#include "trace/trace_diff.h"
+#include "trace/trace_file.h"
+
+namespace isorelax::test {
+namespace {
+
+TEST(TraceFile, HoldsTheWholeRun) {
+  Recorded recorded = record();
+  recorded.trace.resources = {{"held.txt", hash_of("1 2 3")}};
+  const Trace back = parse_trace(trace_bytes(recorded.trace), "t");
+  EXPECT_EQ(back.program, recorded.trace.program);
+  EXPECT_EQ(back.input, recorded.trace.input);
+  EXPECT_EQ(back.arguments, recorded.trace.arguments);
+  EXPECT_EQ(back.resources, recorded.trace.resources);
+  EXPECT_EQ(back.stopped_because, recorded.trace.stopped_because);
+  EXPECT_EQ(back.quality, recorded.trace.quality);
+  EXPECT_TRUE(compare_traces(back, recorded.trace).none());
+  for (std::size_t k = 0; k < back.iterations.size(); ++k) {
+    visit_numbers(back.iterations[k], [&](std::string_view name, const auto& value) {
+      visit_numbers(recorded.trace.iterations[k], [&](std::string_view other, const auto& expected) {
+        if (other == name) {
+          EXPECT_EQ(static_cast<double>(value), static_cast<double>(expected)) << name;
+        }
+      });
+    });
+  }
+}
+
+TEST(TraceFile, RefusesEveryFlippedByteWithItsPlace) {
+  const std::string bytes = trace_bytes(record(2).trace);
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    try {
+      (void)parse_trace(damaged, "run.trace");
+      ADD_FAILURE() << "byte " << at << " does not matter";
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("run.trace: byte ", 0), 0U) << error.what();
+    }
+  }
+}
+
+TEST(TraceFile, RefusesEveryTruncationAndWhatFollowsTheEnd) {
+  const std::string bytes = trace_bytes(record(2).trace);
+  for (std::size_t size = 0; size < bytes.size(); size += size < 300 ? 1 : 37)
+    EXPECT_THROW((void)parse_trace(bytes.substr(0, size), "t"), InputError) << size;
+  EXPECT_THROW((void)parse_trace(bytes + "x", "t"), InputError);
+  EXPECT_THROW((void)parse_trace("OFF\n1 2 3\n", "t"), InputError);
+  std::string later = bytes;
+  later[kTraceMagic.size()] = 2;
+  try {
+    (void)parse_trace(later, "t");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("version 2"), std::string::npos);
+  }
+}
+
+TEST(TraceFile, IsSmallerThanItsPositions) {
+  const Recorded recorded = record(20);
+  EXPECT_LT(trace_bytes(recorded.trace).size(),
+            recorded.positions.size() * recorded.mesh.positions.size() * sizeof(Vec3));
+}
+
+}  // namespace
+}  // namespace isorelax::test
