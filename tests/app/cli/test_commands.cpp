@@ -372,9 +372,9 @@ TEST(TraceCommand, ShowsExportsComparesAndReplaysARun) {
   const std::string in = workspace.path("in.off");
   const std::string trace = workspace.path("run.trace");
   ASSERT_EQ(run_program("generate random --triangles 200 -o " + in).status, 0);
-  const std::string smooth = "smooth " + in + " -o " + workspace.path("o.off") + " --quiet --mu 0.25 ";
-  ASSERT_EQ(run_program(smooth + "--iterations 12 --trace " + trace).status, 0);
-  ASSERT_EQ(run_program(smooth + "--iterations 5 --trace " + workspace.path("short.trace")).status, 0);
+  const std::string smooth = "smooth " + in + " --quiet --mu 0.25 -o " + workspace.path("o");
+  ASSERT_EQ(run_program(smooth + ".off --iterations 12 --trace " + trace).status, 0);
+  ASSERT_EQ(run_program(smooth + "2.off --iterations 5 --trace " + workspace.path("short.trace")).status, 0);
 
   const Outcome shown = run_program("trace show " + trace);
   EXPECT_EQ(shown.status, 0);
