@@ -13,6 +13,13 @@ Vec3 line_direction(const SmoothingProblem& problem, std::span<const Vec3> posit
   return decompose(covariance).vectors.col(2);
 }
 
+/// Whether a vertex takes its tangent space from the frozen surface that its moves are brought back to.
+bool follows_surface(const SmoothingProblem& problem, Index vertex) {
+  if (!problem.surface || problem.mobility[vertex] == Mobility::none) return false;
+  return problem.mobility[vertex] == Mobility::line ? problem.surface->anchor(vertex).edge != kNone
+                                                    : !problem.plane_normal;
+}
+
 }  // namespace
 
 std::array<Vec3, kLanes> tangent_axes(const SmoothingProblem& problem, std::span<const Vec3> positions,
@@ -20,14 +27,18 @@ std::array<Vec3, kLanes> tangent_axes(const SmoothingProblem& problem, std::span
   std::array<Vec3, kLanes> axes;
   if (problem.plane_normal) {
     axes.fill(*problem.plane_normal);
-  } else {
+  } else if (!problem.surface) {
     CovarianceBatch batch{};
     for (unsigned i = 0; i < sums.size(); ++i) batch.set(i, sums[i].covariance);
     axes = dominant_eigenvectors(batch);
   }
   for (unsigned i = 0; i < sums.size(); ++i) {
-    if (problem.mobility[first + i] == Mobility::line) {
-      axes[i] = line_direction(problem, positions, first + i, sums[i].covariance);
+    const Index v = first + i;
+    if (follows_surface(problem, v)) {
+      axes[i] = problem.surface->tangent_axis(positions[v], class_on_surface(problem, v),
+                                              problem.surface->anchor(v));
+    } else if (problem.mobility[v] == Mobility::line) {
+      axes[i] = line_direction(problem, positions, v, sums[i].covariance);
     }
   }
   return axes;

@@ -4,9 +4,14 @@
 
 namespace isorelax {
 
+/// What a vertex is on the frozen surface: one that may move in a plane goes over faces whatever it is.
+inline VertexClass class_on_surface(const SmoothingProblem& problem, Index vertex) {
+  return problem.mobility[vertex] == Mobility::line ? problem.classes.classes[vertex] : VertexClass::smooth;
+}
+
 /// What spans the tangent spaces of up to eight vertices from `first` on: the unit normal of a plane, the
-/// unit direction of a line; unused where a vertex may not move. From the sums around each vertex (paper Sec.
-/// 3).
+/// unit direction of a line; unused where a vertex may not move. From the frozen surface where there
+/// is one, else from the sums around each vertex (paper Sec. 3).
 std::array<Vec3, kLanes> tangent_axes(const SmoothingProblem& problem, std::span<const Vec3> positions,
                                       Index first, std::span<const VertexSums> sums);
 

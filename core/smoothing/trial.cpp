@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mesh/parallel.h"
+#include "smoothing/tangent.h"
 
 namespace isorelax {
 
@@ -22,12 +23,10 @@ void Trial::place(StepRecord& record, Index vertex) {
   if (problem_.surface && alpha > 0 && !tangent_[vertex].isZero(0)) {
     // The walk starts where the vertex was at the start of the run: the point does not depend on the way
     // there.
-    const bool on_curve = problem_.mobility[vertex] == Mobility::line;
-    const VertexClass kind = on_curve ? problem_.classes.classes[vertex] : VertexClass::smooth;
-    const Vec3 target =
-        problem_.surface
-            ->project(from_[vertex] + alpha * tangent_[vertex], kind, problem_.surface->anchor(vertex))
-            .point;
+    const Vec3 target = problem_.surface
+                            ->project(from_[vertex] + alpha * tangent_[vertex],
+                                      class_on_surface(problem_, vertex), problem_.surface->anchor(vertex))
+                            .point;
     record.displacement[vertex] = (target - from_[vertex]) / alpha;
   }
   to_[vertex] = from_[vertex] + alpha * record.displacement[vertex];

@@ -57,6 +57,13 @@ Vec3 CurveFit::lift(const Vec3& point) const {
   return origin_ + along * tangent_ + across;
 }
 
+Vec3 CurveFit::direction(const Vec3& point) const {
+  const double s = (point - origin_).dot(tangent_) * scale_;
+  Vec3 slope = Vec3::Zero();
+  for (int k = degree_ - 1; k >= 0; --k) slope = slope * s + (k + 1) * coefficients_[k];
+  return tangent_ + scale_ * slope;
+}
+
 FeatureCurves::FeatureCurves(std::span<const Vec3> positions, std::span<const Edge> edges,
                              std::span<const std::uint8_t> is_corner)
     : x_(positions.begin(), positions.end()), edge_of_(positions.size(), kNone) {
@@ -185,7 +192,8 @@ Vec3 FeatureCurves::lift(const Foot& foot) const {
   return length > piece.largest_lift ? Vec3(foot.point + offset * (piece.largest_lift / length)) : lifted;
 }
 
-CurvePoint FeatureCurves::project(const Vec3& point, Index edge) const {
+/// The place on the chain whose lift is the curve's point nearest to `point`.
+FeatureCurves::Foot FeatureCurves::settle(const Vec3& point, Index edge) const {
   Foot at = walk(point, edge);
   Vec3 lifted = lift(at);
   // The lift moves a little along the chain as well: take that back.
@@ -195,7 +203,25 @@ CurvePoint FeatureCurves::project(const Vec3& point, Index edge) const {
     at = walk(at.point + back, at.piece);
     lifted = lift(at);
   }
-  return {at.piece, lifted};
+  return at;
+}
+
+CurvePoint FeatureCurves::project(const Vec3& point, Index edge) const {
+  const Foot at = settle(point, edge);
+  return {at.piece, lift(at)};
+}
+
+Vec3 FeatureCurves::direction_at(const Vec3& point, Index edge) const {
+  const Foot at = settle(point, edge);
+  const Vec3 along = direction(at.piece).normalized();
+  const Piece& piece = pieces_[at.piece];
+  if (!(piece.largest_lift > 0)) return along;
+  Vec3 sum = Vec3::Zero();
+  for (const unsigned end : {0U, 1U}) {
+    const Vec3 part = piece.fits[end].direction(at.point).normalized();
+    sum += (end == 0 ? 1 - at.t : at.t) * (part.dot(along) < 0 ? Vec3(-part) : part);
+  }
+  return sum.normalized();
 }
 
 }  // namespace isorelax

@@ -21,6 +21,9 @@ class CurveFit {
   /// `point` moved across the tangent onto the fitted curve; `point` itself where there is no fit.
   [[nodiscard]] Vec3 lift(const Vec3& point) const;
 
+  /// Direction of the fitted curve over `point`, with a part of one along the tangent.
+  [[nodiscard]] Vec3 direction(const Vec3& point) const;
+
  private:
   Vec3 origin_ = Vec3::Zero();
   Vec3 tangent_ = Vec3::UnitX();
@@ -54,6 +57,9 @@ class FeatureCurves {
   /// Vertices of the curve are points of it; straight edges stay straight to the last digits.
   [[nodiscard]] CurvePoint project(const Vec3& point, Index edge) const;
 
+  /// Unit direction of the smooth curve near `edge` at a point of it.
+  [[nodiscard]] Vec3 direction_at(const Vec3& point, Index edge) const;
+
  private:
   struct Piece {
     Edge vertices;
@@ -78,6 +84,7 @@ class FeatureCurves {
   [[nodiscard]] Foot foot(const Vec3& point, Index piece) const;
   [[nodiscard]] Foot walk(const Vec3& point, Index piece) const;
   [[nodiscard]] Vec3 lift(const Foot& foot) const;
+  [[nodiscard]] Foot settle(const Vec3& point, Index edge) const;
 
   std::vector<Vec3> x_;  ///< all the mesh's vertices
   std::vector<Piece> pieces_;

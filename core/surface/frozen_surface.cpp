@@ -214,8 +214,8 @@ FrozenSurface::Lifted FrozenSurface::lift(const SurfacePoint& foot) const {
   return {foot, foot.point + offset};
 }
 
-Projection FrozenSurface::project_to_face(const Vec3& point, const SurfaceAnchor& from) const {
-  Lifted at = lift(walk(point, from.triangle));
+FrozenSurface::Lifted FrozenSurface::project_to_face(const Vec3& point, Index from) const {
+  Lifted at = lift(walk(point, from));
   // The lift moves a little along the surface as well: take that back.
   for (int i = 0; i < kCorrections && at.point != at.foot.point; ++i) {
     Vec3 normal = Vec3::Zero();
@@ -227,15 +227,36 @@ Projection FrozenSurface::project_to_face(const Vec3& point, const SurfaceAnchor
     if (back.squaredNorm() <= resolution2_) break;
     at = lift(walk(at.foot.point + back, at.foot.triangle));
   }
-  return {at.point, {at.foot.triangle, from.edge}};
+  return at;
+}
+
+/// The blend of the fits' normals with the weights of the blend of the fits.
+Vec3 FrozenSurface::normal(const SurfacePoint& foot) const {
+  if (!(largest_lift_[foot.triangle] > 0)) return unit(normal_of(x_, triangles_[foot.triangle]));
+  Vec3 sum = Vec3::Zero();
+  for (unsigned k = 0; k < 3; ++k) {
+    if (foot.barycentric[k] == 0) continue;
+    sum += foot.barycentric[k] * unit(fits_[patches_.of(3 * foot.triangle + k)].normal(foot.point));
+  }
+  return unit(sum);
 }
 
 Projection FrozenSurface::project(const Vec3& point, VertexClass vertex_class,
                                   const SurfaceAnchor& from) const {
   if (vertex_class == VertexClass::corner) return {point, from};
-  if (vertex_class == VertexClass::smooth || from.edge == kNone) return project_to_face(point, from);
+  if (vertex_class == VertexClass::smooth || from.edge == kNone) {
+    const Lifted at = project_to_face(point, from.triangle);
+    return {at.point, {at.foot.triangle, from.edge}};
+  }
   const CurvePoint found = curves_.project(point, from.edge);
   return {found.point, {from.triangle, found.edge}};
+}
+
+Vec3 FrozenSurface::tangent_axis(const Vec3& point, VertexClass vertex_class,
+                                 const SurfaceAnchor& from) const {
+  if (vertex_class == VertexClass::smooth || from.edge == kNone)
+    return normal(project_to_face(point, from.triangle).foot);
+  return curves_.direction_at(point, from.edge);
 }
 
 }  // namespace isorelax

@@ -49,6 +49,13 @@ class FrozenSurface {
   [[nodiscard]] Projection project(const Vec3& point, VertexClass vertex_class,
                                    const SurfaceAnchor& from) const;
 
+  /// What spans the tangent space of the frozen surface at a point that `project` led to, of unit length: the
+  /// normal of its face, or, for a ridge or boundary vertex on a feature curve, the direction of that curve.
+  /// It changes smoothly over a face, where the mesh's own normals follow the triangles that happen to be
+  /// there: a move along those leaves the surface, and what is brought back need not go downhill.
+  [[nodiscard]] Vec3 tangent_axis(const Vec3& point, VertexClass vertex_class,
+                                  const SurfaceAnchor& from) const;
+
   /// The closest point of the original triangles themselves, anywhere: what a largest deviation is counted
   /// from. `hint` makes it cheaper, see ClosestPointIndex.
   [[nodiscard]] SurfacePoint closest(const Vec3& point, Index hint = kNone) const {
@@ -73,7 +80,8 @@ class FrozenSurface {
   [[nodiscard]] SurfacePoint foot(const Vec3& point, Index triangle) const;
   [[nodiscard]] SurfacePoint walk(const Vec3& point, Index triangle) const;
   [[nodiscard]] Lifted lift(const SurfacePoint& foot) const;
-  [[nodiscard]] Projection project_to_face(const Vec3& point, const SurfaceAnchor& from) const;
+  [[nodiscard]] Lifted project_to_face(const Vec3& point, Index from) const;
+  [[nodiscard]] Vec3 normal(const SurfacePoint& foot) const;
 
   std::vector<Vec3> x_;
   std::vector<Triangle> triangles_;

@@ -113,4 +113,24 @@ Vec3 HeightFit::lift(const Vec3& point) const {
   return point + (f - height) * normal_;
 }
 
+Vec3 HeightFit::normal(const Vec3& point) const {
+  if (degree_ == 0) return normal_;
+  const Vec3 d = point - origin_;
+  const double u = d.dot(t1_), v = d.dot(t2_);
+  // The terms of degree d - 1 are those that the terms of degree d have as derivatives.
+  std::array<double, kMaxTerms> terms;
+  fill_terms(u, v, degree_, terms);
+  double fu = coefficients_[0], fv = coefficients_[1];
+  int lower = 0;
+  for (int degree = 2, at = 2; degree <= degree_; ++degree) {
+    for (int i = 0; i < degree; ++i) {
+      fu += coefficients_[at + i] * (degree - i) * terms[lower + i];
+      fv += coefficients_[at + i + 1] * (i + 1) * terms[lower + i];
+    }
+    lower = at;
+    at += degree + 1;
+  }
+  return normal_ - fu * t1_ - fv * t2_;
+}
+
 }  // namespace isorelax

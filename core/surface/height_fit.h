@@ -47,6 +47,10 @@ class HeightFit {
   /// knows less than the triangles it came from.
   [[nodiscard]] Vec3 lift(const Vec3& point) const;
 
+  /// Normal of the fitted surface over `point`, not of unit length but with a part of one along the fit's
+  /// own; that own normal where there is no fit.
+  [[nodiscard]] Vec3 normal(const Vec3& point) const;
+
  private:
   static constexpr int kMaxTerms = 14;
 
