@@ -199,8 +199,7 @@ class ProblemBuilder {
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
-    p_.surface = std::make_shared<FrozenSurface>(x_, p_.triangles, p_.topology, options_.features, p_.classes,
-                                                 options_.threads);
+    p_.surface = std::make_shared<FrozenSurface>(x_, p_.triangles, p_.topology, p_.classes, options_.threads);
   }
 
   void measure_edges() {

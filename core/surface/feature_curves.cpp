@@ -213,7 +213,7 @@ CurvePoint FeatureCurves::project(const Vec3& point, Index edge) const {
 
 Vec3 FeatureCurves::direction_at(const Vec3& point, Index edge) const {
   const Foot at = settle(point, edge);
-  const Vec3 along = direction(at.piece).normalized();
+  Vec3 along = direction(at.piece).normalized();
   const Piece& piece = pieces_[at.piece];
   if (!(piece.largest_lift > 0)) return along;
   Vec3 sum = Vec3::Zero();

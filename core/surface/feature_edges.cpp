@@ -25,22 +25,4 @@ bool is_crease(const FeatureOptions& options, double turn_deg, std::array<double
          (turn_deg > options.sharp_edge_deg && both >= 0.5 * options.ridge_angle_deg);
 }
 
-std::vector<FeatureEdge> crease_edges(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                      const Topology& topology, const FeatureOptions& options,
-                                      const VertexClasses& classes) {
-  std::vector<FeatureEdge> edges;
-  for (Corner c = 0; c < 3 * triangles.size(); ++c) {
-    if (topology.opposite(c) == kNone || topology.opposite(c) < c) continue;
-    const Index v = triangles[c / 3][next(c % 3)];
-    const Index w = triangles[c / 3][previous(c % 3)];
-    if (classes.classes[v] == VertexClass::smooth || classes.classes[w] == VertexClass::smooth) continue;
-    const std::array<double, 2> spread = {classes.spread_deg[v], classes.spread_deg[w]};
-    // No smaller angle makes a crease: most edges are done without one.
-    if (std::min(spread[0], spread[1]) < 0.5 * options.ridge_angle_deg) continue;
-    if (is_crease(options, dihedral_turn_deg(positions, triangles, topology, c), spread))
-      edges.push_back({{v, w}, c});
-  }
-  return edges;
-}
-
 }  // namespace isorelax

@@ -19,17 +19,4 @@ namespace isorelax {
 [[nodiscard]] bool is_crease(const FeatureOptions& options, double turn_deg,
                              std::array<double, 2> spread_deg);
 
-/// An edge that is part of a feature, once, by the smaller of the corners opposite to it.
-struct FeatureEdge {
-  std::array<Index, 2> vertices;
-  Corner corner;
-};
-
-/// The creases of the surface whose ends both belong to a ridge, a corner or the border, in the order of
-/// their corners. `classes` are those of classify_vertices with the same options: both go by one rule.
-[[nodiscard]] std::vector<FeatureEdge> crease_edges(std::span<const Vec3> positions,
-                                                    std::span<const Triangle> triangles,
-                                                    const Topology& topology, const FeatureOptions& options,
-                                                    const VertexClasses& classes);
-
 }  // namespace isorelax

@@ -32,8 +32,7 @@ Vec3 normal_of(std::span<const Vec3> x, const Triangle& t) {
 // Set-up --------------------------------------------------------------------------------------------------
 
 FrozenSurface::FrozenSurface(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                             const Topology& topology, const FeatureOptions& features,
-                             const VertexClasses& classes, unsigned threads)
+                             const Topology& topology, const VertexClasses& classes, unsigned threads)
     : x_(positions.begin(), positions.end()),
       triangles_(triangles.begin(), triangles.end()),
       flat_(positions, triangles) {
@@ -43,7 +42,7 @@ FrozenSurface::FrozenSurface(std::span<const Vec3> positions, std::span<const Tr
 
   std::vector<Corner> crease_corners;
   std::vector<FeatureCurves::Edge> creases;
-  for (const FeatureEdge& e : crease_edges(positions, triangles, topology, features, classes)) {
+  for (const FeatureEdge& e : classes.creases) {
     crease_corners.push_back(e.corner);
     creases.push_back(e.vertices);
   }

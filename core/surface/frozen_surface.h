@@ -33,11 +33,10 @@ struct Projection {
 class FrozenSurface {
  public:
   FrozenSurface() = default;
-  /// `classes` are those of classify_vertices for the same mesh and options. Copies what it needs.
+  /// `classes` are those of classify_vertices for the same mesh. Copies what it needs.
   /// About 15 microseconds and 1 kB a vertex.
   FrozenSurface(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                const Topology& topology, const FeatureOptions& features, const VertexClasses& classes,
-                unsigned threads = 0);
+                const Topology& topology, const VertexClasses& classes, unsigned threads = 0);
 
   /// Where a vertex of the original is. Precondition: the vertex is in a triangle.
   [[nodiscard]] SurfaceAnchor anchor(Index vertex) const { return anchors_[vertex]; }

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "mesh/parallel.h"
-#include "surface/feature_edges.h"
+#include "surface/crease_graph.h"
 
 namespace isorelax {
 namespace {
@@ -26,13 +26,14 @@ double angle_between(const Vec3& a, const Vec3& b) {
 class Classifier {
  public:
   Classifier(std::span<const Vec3> positions, std::span<const Triangle> triangles, const Topology& topology,
-             const FeatureOptions& options, VertexClasses& result)
+             const FeatureOptions& options, VertexClasses& result, std::span<const double> turns_deg)
       : x_(positions),
         triangles_(triangles),
         topology_(topology),
         options_(options),
         r_(result),
-        lines_(positions.size(), 0) {}
+        turns_(turns_deg),
+        is_crease_(3 * triangles.size(), 0) {}
 
   /// First pass: all that one vertex's own triangles tell.
   void measure(Index v) {
@@ -45,8 +46,7 @@ class Classifier {
       const Triangle& t = triangles_[c / 3];
       const unsigned k = c % 3;
       angles += angle_between(x_[t[next(k)]] - x_[v], x_[t[previous(k)]] - x_[v]);
-      for (const unsigned side : {next(k), previous(k)})
-        sharpest = std::max(sharpest, turn_across(c - k + side));
+      for (const unsigned side : {next(k), previous(k)}) sharpest = std::max(sharpest, turns_[c - k + side]);
     }
     r_.sharpest_edge_deg[v] = sharpest;
     r_.angle_defect_deg[v] = (topology_.is_boundary(v) ? 180.0 : 360.0) - angles;
@@ -70,14 +70,14 @@ class Classifier {
     return sum;
   }
 
-  /// Second pass: the lines through the vertex, which need the neighbours' measurements.
-  void trace_lines(Index v) {
-    const auto ends = topology_.is_boundary(v) ? border_neighbours(v) : crease_neighbours(v);
-    lines_[v] = static_cast<std::uint8_t>(std::min<std::size_t>(ends.size(), 255));
-    if (ends.size() == 2) r_.turn_deg[v] = 180 - angle_between(x_[ends[0]] - x_[v], x_[ends[1]] - x_[v]);
+  /// Between the passes: what is_crease_ and the lines go by.
+  void find_lines() {
+    r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg);
+    for (const FeatureEdge& e : r_.creases)
+      is_crease_[e.corner] = is_crease_[topology_.opposite(e.corner)] = 1;
   }
 
-  /// Third pass: needs the neighbours' lines.
+  /// Second pass: needs the creases.
   void classify(Index v) {
     if (topology_.flags(v) & kIsolatedVertex) {
       set(v, VertexClass::corner, 180);
@@ -95,52 +95,46 @@ class Classifier {
   }
 
   void classify_boundary(Index v) {
+    const std::vector<Index> ends = border_neighbours(v);
+    if (ends.size() != 2 || !crease_neighbours(v).empty()) return set(v, VertexClass::corner, 180);
+    r_.turn_deg[v] = turn(v, {ends[0], ends[1]});
     const double over = r_.turn_deg[v] - options_.turn_deg;
-    if (lines_[v] != 2 || !crease_neighbours(v).empty()) return set(v, VertexClass::corner, 180);
     set(v, over > 0 ? VertexClass::corner : VertexClass::boundary, std::abs(over));
   }
 
-  /// How far an inner vertex is over the nearest of the corner's thresholds, degrees; negative: under all of
-  /// them.
-  [[nodiscard]] double over_corner(Index v) const {
-    const double defect = std::abs(r_.angle_defect_deg[v]) - options_.corner_defect_deg;
-    const double third = spread(r_.eigenvalues[v][2], r_.eigenvalues[v][0]) - options_.ridge_angle_deg;
-    double over = std::max(defect, third);
-    if (lines_[v] >= 3) over = std::max(over, over_ridge(v));
-    if (lines_[v] == 2 && over_ridge(v) >= 0) over = std::max(over, r_.turn_deg[v] - options_.turn_deg);
-    return over;
+  void classify_interior(Index v) {
+    const std::vector<Index> ends = crease_neighbours(v);
+    double corner = std::abs(r_.angle_defect_deg[v]) - options_.corner_defect_deg;
+    if (ends.size() == 2) {
+      r_.turn_deg[v] =
+          std::min(turn(v, {ends[0], ends[1]}), turn(v, {beyond(ends[0], v), beyond(ends[1], v)}));
+      corner = std::max(corner, r_.turn_deg[v] - options_.turn_deg);
+    } else if (!ends.empty()) {
+      corner = std::max({corner, over_ridge(v), 0.0});
+    }
+    if (corner >= 0) return set(v, VertexClass::corner, corner);
+    const double ridge = std::abs(over_ridge(v));
+    set(v, ends.empty() ? VertexClass::smooth : VertexClass::ridge, std::min(ridge, -corner));
   }
 
-  /// How far it is over the ridge's thresholds.
+  /// How far the vertex is over the ridge's thresholds.
   [[nodiscard]] double over_ridge(Index v) const {
     const double spread_over = r_.spread_deg[v] - options_.ridge_angle_deg;
-    return has_sharp_edge(v) ? std::max(spread_over, r_.sharpest_edge_deg[v] - options_.sharp_edge_deg)
-                             : spread_over;
+    const bool sharp = r_.sharpest_edge_deg[v] > options_.sharp_edge_deg &&
+                       r_.spread_deg[v] >= 0.5 * options_.ridge_angle_deg;
+    return sharp ? std::max(spread_over, r_.sharpest_edge_deg[v] - options_.sharp_edge_deg) : spread_over;
   }
 
-  /// A ridge is a line: two crease edges, or one that continues in a line beyond its other end. Normals that
-  /// spread without such a line are those of a strongly curved but smooth place.
-  [[nodiscard]] bool is_on_line(Index v) const {
-    if (lines_[v] >= 2 || has_sharp_edge(v)) return true;
-    const auto ends = crease_neighbours(v);
-    return ends.size() == 1 && lines_[ends[0]] >= 2 && over_corner(ends[0]) < 0;
+  /// Turn of the line from one point over the vertex to the other.
+  [[nodiscard]] double turn(Index v, std::array<Index, 2> ends) const {
+    return 180 - angle_between(x_[ends[0]] - x_[v], x_[ends[1]] - x_[v]);
   }
 
-  void classify_interior(Index v) {
-    const double corner = over_corner(v);
-    const double ridge = over_ridge(v);
-    if (corner >= 0) return set(v, VertexClass::corner, corner);
-    if (ridge >= 0 && is_on_line(v)) return set(v, VertexClass::ridge, std::min(ridge, -corner));
-    set(v, VertexClass::smooth, std::min(std::abs(ridge), -corner));
-  }
-
-  [[nodiscard]] double turn_across(Corner corner) const {
-    return dihedral_turn_deg(x_, triangles_, topology_, corner);
-  }
-
-  [[nodiscard]] bool has_sharp_edge(Index v) const {
-    return r_.sharpest_edge_deg[v] > options_.sharp_edge_deg &&
-           r_.spread_deg[v] >= 0.5 * options_.ridge_angle_deg;
+  /// The next vertex of the line that comes from `behind` to `v`; `v` where it does not run on.
+  [[nodiscard]] Index beyond(Index v, Index behind) const {
+    const std::vector<Index> ends = crease_neighbours(v);
+    if (ends.size() != 2 || topology_.is_boundary(v)) return v;
+    return ends[0] == behind ? ends[1] : ends[0];
   }
 
   template <typename Predicate>
@@ -149,21 +143,20 @@ class Classifier {
     for (const Corner c : topology_.corners_of(v)) {
       const unsigned k = c % 3;
       for (const unsigned side : {next(k), previous(k)}) {
-        const Corner edge = c - k + side;  // opposite to this corner: the edge from v to the remaining one
         const Index w = triangles_[c / 3][3 - k - side];
-        if (wanted(edge, w) && std::find(found.begin(), found.end(), w) == found.end()) found.push_back(w);
+        // Opposite to this corner: the edge from v to w.
+        if (wanted(c - k + side) && std::find(found.begin(), found.end(), w) == found.end())
+          found.push_back(w);
       }
     }
     return found;
   }
 
   [[nodiscard]] std::vector<Index> border_neighbours(Index v) const {
-    return neighbours_where(v, [&](Corner edge, Index) { return topology_.is_boundary_edge(edge); });
+    return neighbours_where(v, [&](Corner edge) { return topology_.is_boundary_edge(edge); });
   }
   [[nodiscard]] std::vector<Index> crease_neighbours(Index v) const {
-    return neighbours_where(v, [&](Corner edge, Index w) {
-      return is_crease(options_, turn_across(edge), {r_.spread_deg[v], r_.spread_deg[w]});
-    });
+    return neighbours_where(v, [&](Corner edge) { return is_crease_[edge] != 0; });
   }
 
   std::span<const Vec3> x_;
@@ -171,7 +164,8 @@ class Classifier {
   const Topology& topology_;
   const FeatureOptions& options_;
   VertexClasses& r_;
-  std::vector<std::uint8_t> lines_;  // crease edges at an inner vertex, border edges at a boundary vertex
+  std::span<const double> turns_;        // of the edge opposite to each corner
+  std::vector<std::uint8_t> is_crease_;  // likewise
 };
 
 }  // namespace
@@ -200,14 +194,15 @@ VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const
                        &result.turn_deg, &result.margin_deg}) {
     values->assign(n, 0);
   }
-  Classifier classifier(positions, triangles, topology, options, result);
+  const std::vector<double> turns = dihedral_turns_deg(positions, triangles, topology, threads);
+  Classifier classifier(positions, triangles, topology, options, result, turns);
   const auto for_all = [&](auto pass) {
     parallel_for_blocks(n, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) (classifier.*pass)(static_cast<Index>(v));
     });
   };
   for_all(&Classifier::measure);
-  for_all(&Classifier::trace_lines);
+  classifier.find_lines();
   for_all(&Classifier::classify);
   return result;
 }

@@ -30,8 +30,20 @@ struct FeatureOptions {
   double corner_defect_deg = 60;
   /// A ridge or a boundary that turns by more than this in a vertex has a corner there.
   double turn_deg = 45;
+  /// An edge that turns by less than this many times the mean of the smooth edges about it is roughness, not
+  /// a crease.
+  double over_roughness = 2.5;
+  /// A line of fewer crease edges that ends in the middle of a face is no feature, nor one of fewer than
+  /// twice as many that does so at both ends.
+  unsigned least_crease_edges = 4;
 
   static constexpr FeatureOptions none() { return {180, 180, 1e9, 45}; }
+};
+
+/// An edge that is part of a feature, once, by the smaller of the corners opposite to it.
+struct FeatureEdge {
+  std::array<Index, 2> vertices;
+  Corner corner;
 };
 
 /// The class of every vertex with the measurements that decided it, so that nothing about it is hidden.
@@ -43,21 +55,22 @@ struct VertexClasses {
                                          ///< corner_defect_deg
   std::vector<double>
       sharpest_edge_deg;  ///< largest dihedral turn of the incident edges, compared with sharp_edge_deg
-  std::vector<double> turn_deg;  ///< turn of the ridge or boundary line in the vertex; 0 where there is none
+  std::vector<double> turn_deg;  ///< turn of the ridge or boundary line in the vertex, of a ridge the smaller
+                                 ///< of that to its neighbours and to theirs; 0 where there is none
   /// Degrees between the measurement that decided and its threshold: how far the vertex is from another
   /// class.
   std::vector<double> margin_deg;
+  /// The creases, in the order of their corners; none of their ends is smooth.
+  std::vector<FeatureEdge> creases;
 };
 
 /// Classifies every vertex (paper Sec. 3, method Sec. 4). A vertex in no triangle is a corner.
 ///
-/// A crease edge turns by ridge_angle_deg between two vertices whose normals spread that much, or by more
-/// than sharp_edge_deg where both spread at least half as much: a sliver's normal alone, whose area carries
-/// no weight, makes no crease. Boundary vertices are `boundary`, or `corner` where the border turns by more
-/// than turn_deg, where a crease runs into it, or where several borders meet. Elsewhere: a corner where the
-/// angles miss 2 pi by corner_defect_deg, where the third eigenvalue spreads like a crease too, where three
-/// or more creases meet, or where one turns by more than turn_deg; a ridge where the spread reaches
-/// ridge_angle_deg or an edge is sharp, and two crease edges meet or one continues a line; else smooth.
+/// Creases are those of find_creases. Boundary vertices are `boundary`, or `corner` where the border turns by
+/// more than turn_deg, where a crease runs into it, or where several borders meet. Elsewhere: a corner where
+/// the angles miss 2 pi by corner_defect_deg, where one crease ends, where three or more meet, or where the
+/// line of two turns by more than turn_deg, both between the neighbours on it and between theirs: a line that
+/// only follows the zigzag of its edges has no corner. A ridge where two creases meet; else smooth.
 VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const FeatureOptions& options,
                                 unsigned threads = 0);

@@ -34,7 +34,7 @@ struct CubeFeatures : ::testing::Test {
 
 TEST_F(CubeFeatures, CreasesAreTheEdgesOfACube) {
   double length = 0;
-  for (const FeatureEdge& e : crease_edges(mesh.positions, mesh.triangles, topology, {}, classes)) {
+  for (const FeatureEdge& e : classes.creases) {
     for (const Index v : e.vertices) {
       EXPECT_GE(sides(mesh.positions[v]), 2);
       EXPECT_NE(classes.classes[v], VertexClass::smooth);
@@ -48,13 +48,12 @@ TEST_F(CubeFeatures, CreasesAreTheEdgesOfACube) {
 TEST_F(CubeFeatures, VanishWithoutFeatures) {
   const FeatureOptions none = FeatureOptions::none();
   const VertexClasses plain = classify_vertices(mesh.positions, mesh.triangles, topology, none, 1);
-  EXPECT_TRUE(crease_edges(mesh.positions, mesh.triangles, topology, none, plain).empty());
+  EXPECT_TRUE(plain.creases.empty());
 }
 
 TEST_F(CubeFeatures, CutTheTrianglesAboutAVertexIntoFaces) {
   EdgeWalls walls(3 * mesh.triangles.size(), 0);
-  for (const FeatureEdge& e : crease_edges(mesh.positions, mesh.triangles, topology, {}, classes))
-    walls[e.corner] = walls[topology.opposite(e.corner)] = 1;
+  for (const FeatureEdge& e : classes.creases) walls[e.corner] = walls[topology.opposite(e.corner)] = 1;
   const Sectors sectors(mesh.triangles, topology, walls);
   std::vector<int> count(mesh.positions.size(), 0);
   std::size_t corners = 0;

@@ -20,7 +20,7 @@ struct Frozen {
       : mesh(std::move(m)),
         topology(mesh.triangles, mesh.vertex_count()),
         classes(classify_vertices(mesh.positions, mesh.triangles, topology, features, 1)),
-        surface(mesh.positions, mesh.triangles, topology, features, classes, 1) {}
+        surface(mesh.positions, mesh.triangles, topology, classes, 1) {}
 
   [[nodiscard]] Projection project(Index v, const Vec3& point) const {
     return surface.project(point, classes.classes[v], surface.anchor(v));
@@ -72,6 +72,30 @@ TEST(FrozenSurface, KeepsVerticesThatDoNotMove) {
     const Frozen f(with_triangles(kind, 1500));
     for (Index v = 0; v < f.mesh.vertex_count(); ++v)
       EXPECT_LT((f.project(v, f.mesh.positions[v]).point - f.mesh.positions[v]).norm(), 1e-15);
+  }
+}
+
+TEST(FrozenSurface, ItsTangentAxesAreTheNormalsOfASphereWhateverTheTriangles) {
+  const Frozen f(with_vertices(ShapeKind::random_sphere, 3000));
+  std::mt19937 random(3);
+  for (Index v = 0; v < f.mesh.vertex_count(); ++v) {
+    const Vec3 point = f.project(v, f.moved(v, random)).point;
+    const Vec3 axis = f.surface.tangent_axis(point, VertexClass::smooth, f.surface.anchor(v));
+    EXPECT_NEAR(axis.norm(), 1, 1e-12);
+    EXPECT_LT(axis.cross(point).norm(), 2e-3) << "vertex " << v;
+  }
+}
+
+TEST(FrozenSurface, ItsTangentAxesFollowARim) {
+  const Frozen f(with_triangles(ShapeKind::cylinder, 2000, 0.3));
+  std::mt19937 random(3);
+  for (Index v = 0; v < f.mesh.vertex_count(); ++v) {
+    if (f.classes.classes[v] != VertexClass::ridge) continue;
+    const Vec3 point = f.project(v, f.moved(v, random)).point;
+    const Vec3 axis = f.surface.tangent_axis(point, VertexClass::ridge, f.surface.anchor(v));
+    EXPECT_NEAR(axis.norm(), 1, 1e-12);
+    EXPECT_LT(std::abs(axis.z()), 1e-9);
+    EXPECT_LT(std::abs(axis.dot(Vec3(point.x(), point.y(), 0))), 1e-3);
   }
 }
 
@@ -251,7 +275,7 @@ TEST(FrozenSurface, DoesNotOvershootOnNoise) {
 
 TEST(FrozenSurface, IsTheSameForAnyNumberOfThreads) {
   const Frozen f(with_triangles(ShapeKind::part, 9000));
-  const FrozenSurface other(f.mesh.positions, f.mesh.triangles, f.topology, {}, f.classes, 3);
+  const FrozenSurface other(f.mesh.positions, f.mesh.triangles, f.topology, f.classes, 3);
   std::mt19937 random(27);
   for (Index v = 0; v < f.mesh.vertex_count(); ++v) {
     const Vec3 to = f.moved(v, random);
@@ -279,7 +303,7 @@ TEST(FrozenSurface, PrintsItsSpeed) {
       classify_vertices(mesh.positions, mesh.triangles, topology, FeatureOptions::none(), 1);
   const double vertices = mesh.vertex_count();
   std::clock_t start = std::clock();
-  const FrozenSurface surface(mesh.positions, mesh.triangles, topology, FeatureOptions::none(), classes, 1);
+  const FrozenSurface surface(mesh.positions, mesh.triangles, topology, classes, 1);
   const double setup = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   start = std::clock();
   double sum = 0;

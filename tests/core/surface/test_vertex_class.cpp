@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "generate/generate.h"
+#include "surface/feature_edges.h"
 
 namespace isorelax {
 namespace {
@@ -78,6 +81,21 @@ TEST(VertexClasses, OfAConeAreOneCornerAtTheTopAndACircularRidge) {
 TEST(VertexClasses, OfASphereAreSmooth) {
   const VertexClasses found = classify(generate(ShapeKind::random_sphere, {.vertices = 3000}));
   for (const VertexClass c : found.classes) EXPECT_EQ(c, VertexClass::smooth);
+}
+
+TEST(VertexClasses, RoughnessIsNoFeature) {
+  TriangleMesh rough = generate(ShapeKind::sphere, {.vertices = 3000});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> radius(0.982, 1.018);
+  for (Vec3& p : rough.positions) p *= radius(random);
+  const Topology topology(rough.triangles, rough.vertex_count());
+  std::size_t steep = 0;
+  for (Corner c = 0; c < 3 * rough.triangles.size(); ++c)
+    steep += dihedral_turn_deg(rough.positions, rough.triangles, topology, c) > 30 ? 1 : 0;
+  EXPECT_GT(steep, rough.triangles.size() / 3);
+  const VertexClasses found = classify(rough);
+  const auto smooth = std::count(found.classes.begin(), found.classes.end(), VertexClass::smooth);
+  EXPECT_GT(static_cast<double>(smooth), 0.97 * rough.vertex_count());
 }
 
 TEST(VertexClasses, OfASquareAreItsBorderWithFourCorners) {

@@ -1,0 +1,138 @@
+#include "surface/crease_graph.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesh/parallel.h"
+#include "surface/feature_edges.h"
+
+namespace isorelax {
+namespace {
+
+/// Creases as a graph: what meets in a vertex, and what is left while lines are taken out.
+class CreaseGraph {
+ public:
+  CreaseGraph(std::vector<FeatureEdge> edges, const Topology& topology, const FeatureOptions& options,
+              std::span<const double> turns_deg)
+      : edges_(std::move(edges)),
+        topology_(topology),
+        options_(options),
+        turns_(turns_deg),
+        at_(topology.vertex_count()),
+        kept_(edges_.size(), 1) {
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      for (const Index v : edges_[e].vertices) at_[v].push_back(e);
+  }
+
+  /// Takes out short lines with a free end until there are none left: without one another may end freely.
+  std::vector<FeatureEdge> without_short_ends() {
+    std::vector<Index> ends;
+    for (Index v = 0; v < at_.size(); ++v)
+      if (is_free_end(v)) ends.push_back(v);
+    while (!ends.empty()) {
+      const Index v = ends.back();
+      ends.pop_back();
+      if (!is_free_end(v)) continue;
+      const Line line = follow(v);
+      if (!is_short(line)) continue;
+      for (const std::size_t e : line.edges) kept_[e] = 0;
+      ends.push_back(line.end);
+    }
+    std::vector<FeatureEdge> left;
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      if (kept_[e] != 0) left.push_back(edges_[e]);
+    return left;
+  }
+
+ private:
+  struct Line {
+    std::vector<std::size_t> edges;
+    Index end;
+  };
+
+  [[nodiscard]] std::size_t count_at(Index v) const {
+    return static_cast<std::size_t>(
+        std::count_if(at_[v].begin(), at_[v].end(), [&](std::size_t e) { return kept_[e] != 0; }));
+  }
+  [[nodiscard]] bool is_free_end(Index v) const { return !topology_.is_boundary(v) && count_at(v) == 1; }
+
+  /// From a free end to where the line ends, branches or meets the border.
+  [[nodiscard]] Line follow(Index v) const {
+    Line line{{}, v};
+    do {
+      const auto next = std::find_if(at_[line.end].begin(), at_[line.end].end(), [&](std::size_t e) {
+        return kept_[e] != 0 && (line.edges.empty() || e != line.edges.back());
+      });
+      line.edges.push_back(*next);
+      const auto& ends = edges_[*next].vertices;
+      line.end = ends[0] == line.end ? ends[1] : ends[0];
+    } while (!topology_.is_boundary(line.end) && count_at(line.end) == 2);
+    return line;
+  }
+
+  [[nodiscard]] bool is_short(const Line& line) const {
+    // What meets nothing at either end has to be twice as long.
+    const bool alone = is_free_end(line.end);
+    if (line.edges.size() >= (alone ? 2 : 1) * options_.least_crease_edges) return false;
+    double turn = 0;
+    for (const std::size_t e : line.edges) turn += turns_[edges_[e].corner];
+    const bool sharp = turn > options_.sharp_edge_deg * static_cast<double>(line.edges.size());
+    return alone || !sharp;
+  }
+
+  std::vector<FeatureEdge> edges_;
+  const Topology& topology_;
+  const FeatureOptions& options_;
+  std::span<const double> turns_;
+  std::vector<std::vector<std::size_t>> at_;
+  std::vector<std::uint8_t> kept_;
+};
+
+/// Sums of the turns of the edges at each vertex that are no creases, and their number.
+struct Roughness {
+  std::vector<double> sum;
+  std::vector<unsigned> count;
+
+  explicit Roughness(std::size_t vertices) : sum(vertices, 0), count(vertices, 0) {}
+  [[nodiscard]] double mean(const std::array<Index, 2>& ends) const {
+    const unsigned edges = count[ends[0]] + count[ends[1]];
+    return edges == 0 ? 0 : (sum[ends[0]] + sum[ends[1]]) / edges;
+  }
+};
+
+}  // namespace
+
+std::vector<double> dihedral_turns_deg(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                       const Topology& topology, unsigned threads) {
+  std::vector<double> turns(3 * triangles.size(), 0);
+  parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (Corner c = static_cast<Corner>(3 * begin); c < 3 * end; ++c)
+      turns[c] = dihedral_turn_deg(positions, triangles, topology, c);
+  });
+  return turns;
+}
+
+std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const Topology& topology,
+                                      const FeatureOptions& options, std::span<const double> turns_deg,
+                                      std::span<const double> spread_deg) {
+  std::vector<FeatureEdge> creases;
+  Roughness roughness(topology.vertex_count());
+  for (Corner c = 0; c < 3 * triangles.size(); ++c) {
+    if (topology.opposite(c) == kNone || topology.opposite(c) < c) continue;
+    const std::array<Index, 2> ends = {triangles[c / 3][next(c % 3)], triangles[c / 3][previous(c % 3)]};
+    if (is_crease(options, turns_deg[c], {spread_deg[ends[0]], spread_deg[ends[1]]})) {
+      creases.push_back({ends, c});
+      continue;
+    }
+    for (const Index v : ends) {
+      roughness.sum[v] += turns_deg[c];
+      ++roughness.count[v];
+    }
+  }
+  std::erase_if(creases, [&](const FeatureEdge& e) {
+    return turns_deg[e.corner] < options.over_roughness * roughness.mean(e.vertices);
+  });
+  return CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_ends();
+}
+
+}  // namespace isorelax

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "surface/vertex_class.h"
+
+namespace isorelax {
+
+/// Turns of all edges in degrees, by corner: those of both corners opposite to an edge are the same (see
+/// dihedral_turn_deg).
+[[nodiscard]] std::vector<double> dihedral_turns_deg(std::span<const Vec3> positions,
+                                                     std::span<const Triangle> triangles,
+                                                     const Topology& topology, unsigned threads = 0);
+
+/// The creases among the edges of a mesh, in the order of their corners: what is_crease says, without what is
+/// roughness rather than a line that somebody would draw. Left out are edges that turn by less than
+/// `over_roughness` times the mean of the edges at their ends that are no creases; lines of fewer edges than
+/// `least_crease_edges` that end in the middle of a face, unless they turn by more than `sharp_edge_deg` on
+/// the average; and lines of fewer than twice as many that do so at both ends.
+///
+/// `turns_deg` are those of dihedral_turns_deg, `spread_deg` those of VertexClasses.
+[[nodiscard]] std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles,
+                                                    const Topology& topology, const FeatureOptions& options,
+                                                    std::span<const double> turns_deg,
+                                                    std::span<const double> spread_deg);
+
+}  // namespace isorelax
