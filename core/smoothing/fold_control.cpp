@@ -83,14 +83,18 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
   EdgeBatch x;
   EdgeBatch y;
   AreaBatch areas;
+  AngleBatch angles;
   x.load(trial.from(), problem_.triangles, ids);
   y.load(trial.to(), problem_.triangles, ids);
   area_along_move(x, y, areas);
+  measure_angles(y, angles);
   for (unsigned i = 0; i < ids.count; ++i) {
     const Index t = ids.at[i];
     const AreaAlongMove p{areas.c.at[i], areas.b.at[i], areas.q.at[i]};
     double limit = share(p);
-    if (turns_away(trial, t)) limit = std::min(limit, 0.5);
+    const bool too_sharp = !(angles.smallest_cot.at[i] <= problem_.worst_angles.smallest_cot) ||
+                           !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
+    if (too_sharp || turns_away(trial, t)) limit = std::min(limit, 0.5);
     if (!(limit < 1) || problem_.treated[t] == 0) continue;
     for (const Index v : problem_.triangles[t]) cuts.push_back({v, limit});
   }

@@ -14,11 +14,11 @@ namespace isorelax {
 /// 0.6 of the first positive root where that is below 1.25, else 1. Precondition: x has area.
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
-/// The paper's asynchronous step-size control, which on curved surfaces also keeps every triangle within 60
-/// degrees of its normal at the start of the run: scales each vertex' move by the smallest share of its
-/// triangles and repeats with the scaled moves until no triangle limits. After a bounded number of rounds
-/// what still folds is stopped (its vertices do not move), which always ends. Rounds after the first look
-/// only at triangles whose vertices were scaled.
+/// The paper's asynchronous step-size control, which also makes no triangle worse than the problem's worst
+/// angles and on curved surfaces keeps every triangle within 60 degrees of its normal at the start of the
+/// run: scales each vertex' move by the smallest share of its triangles and repeats with the scaled moves
+/// until no triangle limits. After a bounded number of rounds what still folds is stopped (its vertices do
+/// not move), which always ends. Rounds after the first look only at triangles whose vertices were scaled.
 class FoldControl {
  public:
   /// Keeps a reference to the problem.

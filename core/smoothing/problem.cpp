@@ -14,6 +14,11 @@ constexpr double kDegenerate = 1e-12;
 /// A mesh within this share of its extent of a plane is planar.
 constexpr double kPlanar = 1e-12;
 
+/// A mesh of right triangles, as design programs make them, could hardly move if no angle were to grow: where
+/// none is larger than the first of these, all may grow up to the second. Cotangents of 95 and 120 degrees.
+constexpr double kRightAngledCot = -0.0874886635259240;
+constexpr double kHarmlessCot = -0.57735026918962576;
+
 std::string list_ids(std::span<const Index> ids) {
   constexpr std::size_t kShown = 10;
   std::string text;
@@ -42,6 +47,8 @@ class ProblemBuilder {
     pin_flaws();
     pin_choice();
     measure_edges();
+    p_.worst_angles = WorstAngles::of(x_, p_.triangles, p_.treated);
+    if (p_.worst_angles.largest_cot >= kRightAngledCot) p_.worst_angles.largest_cot = kHarmlessCot;
     freeze_surface();
   }
 
@@ -267,6 +274,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .plane_normal = {},
                            .surface = {},
                            .initial_normals = {},
+                           .worst_angles = {},
                            .mean_edge_length = 0,
                            .threads = options.threads,
                            .notes = {}};

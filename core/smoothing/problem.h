@@ -9,6 +9,7 @@
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
 #include "smoothing/untangle.h"
+#include "smoothing/worst_angles.h"
 #include "surface/frozen_surface.h"
 #include "surface/vertex_class.h"
 
@@ -88,6 +89,9 @@ struct SmoothingProblem {
   std::shared_ptr<const FrozenSurface> surface;
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
+  /// No step makes a triangle worse than these: the worst angles of the treated triangles at the start, or
+  /// 120 degrees where none is larger than 95.
+  WorstAngles worst_angles;
   double mean_edge_length = 0;
   unsigned threads = 0;
   /// What was pinned and left out, in words for the user.

@@ -91,11 +91,13 @@ TEST_P(Corpus, NoTriangleTurnsItsBack) {
   EXPECT_EQ(turned, 0U);
 }
 
-TEST_P(Corpus, TheMeanOfTheSmallestAnglesGrows) {
+TEST_P(Corpus, TheMeanOfTheSmallestAnglesGrowsAndTheWorstAreNotWorse) {
   const Smoothed& s = smoothed();
   const QualityReport before = measure_quality(s.before);
   const QualityReport after = measure_quality(s.after);
   EXPECT_GT(after.mean_min_angle_deg, before.mean_min_angle_deg);
+  EXPECT_GE(after.min_angle_deg, before.min_angle_deg - 1e-9);
+  EXPECT_LE(after.max_angle_deg, std::max(before.max_angle_deg, 120.0) + 1e-9);
   EXPECT_LE(after.degenerate, before.degenerate);
   EXPECT_LE(s.result.run.after.energy, s.result.run.before.energy);
   std::printf("%s: smallest angle %.2f -> %.2f, mean %.2f -> %.2f, %u iterations, %.2f s\n",

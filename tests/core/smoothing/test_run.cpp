@@ -31,6 +31,22 @@ TEST(Run, WithToleranceZeroDoesExactlyThatManySteps) {
   EXPECT_EQ(smooth(mesh, {}, {.iterations = 2000, .tolerance = 0}).iterations, 2000U);
 }
 
+TEST(Run, NeverMakesATriangleWorseThanTheWorstOne) {
+  // Halves of squares: the energy alone would trade their angles of 45 degrees for a better sum.
+  TriangleMesh cube = generate(ShapeKind::cube, {.triangles = 300, .jitter = 0});
+  TriangleMesh sphere = generate(ShapeKind::sphere, {.vertices = 400});
+  for (TriangleMesh* mesh : {&cube, &sphere}) {
+    const QualityReport before = measure_quality(*mesh);
+    ProblemOptions options;
+    options.exponent = 2;
+    smooth(*mesh, options, {.iterations = 100});
+    const QualityReport after = measure_quality(*mesh);
+    EXPECT_GE(after.min_angle_deg, before.min_angle_deg - 1e-9);
+    EXPECT_LE(after.max_angle_deg, std::max(before.max_angle_deg, 120.0) + 1e-9);
+    EXPECT_GE(after.mean_min_angle_deg, before.mean_min_angle_deg - 1e-9);
+  }
+}
+
 TEST(Run, StopsWhenConverged) {
   TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.triangles = 200, .jitter = 0.2});
   const RunResult result = smooth(mesh, {}, {.iterations = 5000, .tolerance = 1e-5});
