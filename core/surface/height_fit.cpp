@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace isorelax {
 namespace {
@@ -58,6 +59,22 @@ int solve(Matrix& a, Heights& b, int degree, double independence, std::span<doub
   return degree;
 }
 
+/// First tangent of a frame that turns with the samples, so that the fit does not depend on how the surface
+/// lies in space: halfway between where they spread most and least. Of samples near a line u and v are then
+/// almost the same, and what they do not determine shows.
+Vec3 frame_tangent(const Vec3& origin, const Vec3& normal, std::span<const FitSample> samples) {
+  const Vec3 t1 = normal.unitOrthogonal();
+  const Vec3 t2 = normal.cross(t1);
+  double uu = 0, uv = 0, vv = 0;
+  for (const FitSample& s : samples) {
+    const Vec3 d = s.point - origin;
+    const double u = d.dot(t1), v = d.dot(t2);
+    uu += u * u, uv += u * v, vv += v * v;
+  }
+  const double angle = 0.5 * std::atan2(2 * uv, uu - vv) + 0.25 * std::numbers::pi;
+  return std::cos(angle) * t1 + std::sin(angle) * t2;
+}
+
 }  // namespace
 
 std::size_t HeightFit::samples_for(const HeightFitOptions& options) {
@@ -68,9 +85,9 @@ std::size_t HeightFit::samples_for(const HeightFitOptions& options) {
 HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<const FitSample> samples,
                      const HeightFitOptions& options)
     : origin_(origin), normal_(unit_normal) {
-  t1_ = normal_.unitOrthogonal();
-  t2_ = normal_.cross(t1_);
   samples = samples.first(std::min<std::size_t>(samples.size(), kMaxSamples));
+  t1_ = frame_tangent(origin_, normal_, samples);
+  t2_ = normal_.cross(t1_);
   double radius2 = 0, mean2 = 0;
   for (const FitSample& s : samples) {
     radius2 = std::max(radius2, (s.point - origin).squaredNorm());
