@@ -18,6 +18,7 @@ constexpr double kPlanar = 1e-12;
 /// none is larger than the first of these, all may grow up to the second. Cotangents of 95 and 120 degrees.
 constexpr double kRightAngledCot = -0.0874886635259240;
 constexpr double kHarmlessCot = -0.57735026918962576;
+constexpr double kAngleRounding = 1e-12;
 
 std::string list_ids(std::span<const Index> ids) {
   constexpr std::size_t kShown = 10;
@@ -47,8 +48,7 @@ class ProblemBuilder {
     pin_flaws();
     pin_choice();
     measure_edges();
-    p_.worst_angles = WorstAngles::of(x_, p_.triangles, p_.treated);
-    if (p_.worst_angles.largest_cot >= kRightAngledCot) p_.worst_angles.largest_cot = kHarmlessCot;
+    limit_worst_angles();
     freeze_surface();
   }
 
@@ -207,6 +207,18 @@ class ProblemBuilder {
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
     p_.surface = std::make_shared<FrozenSurface>(x_, p_.triangles, p_.topology, p_.classes, options_.threads);
+  }
+
+  // Where areas count more than angles, or the reference has angles of its own, worse ones may be asked for.
+  void limit_worst_angles() {
+    const bool equilateral = !std::holds_alternative<InitialReference>(options_.reference) &&
+                             !std::holds_alternative<MeshReference>(options_.reference);
+    if (!equilateral || options_.weights.area > options_.weights.shape) return;
+    p_.worst_angles = WorstAngles::of(x_, p_.triangles, p_.treated);
+    if (p_.worst_angles.largest_cot >= kRightAngledCot) p_.worst_angles.largest_cot = kHarmlessCot;
+    // Room for rounding: the worst triangle itself must not depend on how its corners are numbered.
+    p_.worst_angles.smallest_cot += kAngleRounding * (1 + std::abs(p_.worst_angles.smallest_cot));
+    p_.worst_angles.largest_cot -= kAngleRounding * (1 + std::abs(p_.worst_angles.largest_cot));
   }
 
   void measure_edges() {

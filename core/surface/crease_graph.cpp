@@ -24,19 +24,24 @@ class CreaseGraph {
       for (const Index v : edges_[e].vertices) at_[v].push_back(e);
   }
 
-  /// Takes out short lines with a free end until there are none left: without one another may end freely.
+  /// Takes out short lines with a free end until there are none left: without one another may end freely. All
+  /// that are short at a time go together, so that the numbering of vertices does not matter.
   std::vector<FeatureEdge> without_short_ends() {
     std::vector<Index> ends;
     for (Index v = 0; v < at_.size(); ++v)
       if (is_free_end(v)) ends.push_back(v);
     while (!ends.empty()) {
-      const Index v = ends.back();
-      ends.pop_back();
-      if (!is_free_end(v)) continue;
-      const Line line = follow(v);
-      if (!is_short(line)) continue;
-      for (const std::size_t e : line.edges) kept_[e] = 0;
-      ends.push_back(line.end);
+      std::vector<Line> lines;
+      for (const Index v : ends) {
+        if (!is_free_end(v)) continue;
+        Line line = follow(v);
+        if (is_short(line)) lines.push_back(std::move(line));
+      }
+      ends.clear();
+      for (const Line& line : lines) {
+        for (const std::size_t e : line.edges) kept_[e] = 0;
+        ends.push_back(line.end);
+      }
     }
     std::vector<FeatureEdge> left;
     for (std::size_t e = 0; e < edges_.size(); ++e)

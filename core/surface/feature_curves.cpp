@@ -101,6 +101,14 @@ void FeatureCurves::link(std::span<const Edge> edges, std::span<const std::uint8
       }
     }
   }
+  // Where several pieces meet the longest one speaks for the vertex, whatever their order.
+  const auto length2 = [&](Index p) {
+    return (x_[pieces_[p].vertices[1]] - x_[pieces_[p].vertices[0]]).squaredNorm();
+  };
+  for (Index p = 0; p < pieces_.size(); ++p) {
+    for (const Index v : pieces_[p].vertices)
+      if (length2(p) > length2(edge_of_[v])) edge_of_[v] = p;
+  }
 }
 
 /// From the first vertex to the second.

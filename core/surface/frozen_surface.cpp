@@ -164,7 +164,11 @@ void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& c
   anchors_.resize(x_.size());
   for (Index v = 0; v < x_.size(); ++v) {
     const auto corners = topology.corners_of(v);
-    if (!corners.empty()) anchors_[v] = {corners[0] / 3, curves_.edge_of(v)};
+    if (corners.empty()) continue;
+    // The largest triangle, whatever the numbering: the faces of a crease that ends here may differ.
+    const auto area2 = [&](Corner c) { return normal_of(x_, triangles_[c / 3]).squaredNorm(); };
+    const Corner largest = *std::ranges::max_element(corners, {}, area2);
+    anchors_[v] = {largest / 3, curves_.edge_of(v)};
   }
 }
 

@@ -17,7 +17,7 @@ double degrees_of_cot(double cot) {
 
 TEST(WorstAngles, AreThoseOfTheQualityReport) {
   for (const ShapeKind kind : {ShapeKind::random_square, ShapeKind::random_sphere, ShapeKind::part}) {
-    const TriangleMesh mesh = generate(kind, {.triangles = 501});
+    const TriangleMesh mesh = generate(kind, {.triangles = 500});
     const std::vector<std::uint8_t> all(mesh.triangles.size(), 1);
     const WorstAngles worst = WorstAngles::of(mesh.positions, mesh.triangles, all);
     const QualityReport report = measure_quality(mesh);
