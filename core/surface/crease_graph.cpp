@@ -1,6 +1,7 @@
 #include "surface/crease_graph.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mesh/parallel.h"
@@ -93,6 +94,23 @@ class CreaseGraph {
   std::vector<std::uint8_t> kept_;
 };
 
+/// Vertices where creases go every which way: at least four, and half of the edges. Flat surroundings tell a
+/// corner from them, and so does how far its angles are from those of a plane.
+std::vector<std::uint8_t> webs(std::span<const FeatureEdge> creases, const Topology& topology,
+                               const FeatureOptions& options, std::span<const double> angle_defect_deg) {
+  constexpr std::size_t kMany = 4;
+  constexpr double kPeak = 0.75;
+  std::vector<std::uint8_t> count(topology.vertex_count(), 0);
+  for (const FeatureEdge& e : creases)
+    for (const Index v : e.vertices) count[v] = static_cast<std::uint8_t>(std::min(count[v] + 1, 255));
+  for (Index v = 0; v < count.size(); ++v) {
+    const bool peak = std::abs(angle_defect_deg[v]) >= kPeak * options.corner_defect_deg;
+    const bool many = count[v] >= kMany && 2 * std::size_t{count[v]} >= topology.corners_of(v).size();
+    count[v] = many && !peak ? 1 : 0;
+  }
+  return count;
+}
+
 /// Sums of the turns of the edges at each vertex that are no creases, and their number.
 struct Roughness {
   std::vector<double> sum;
@@ -119,7 +137,8 @@ std::vector<double> dihedral_turns_deg(std::span<const Vec3> positions, std::spa
 
 std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const Topology& topology,
                                       const FeatureOptions& options, std::span<const double> turns_deg,
-                                      std::span<const double> spread_deg) {
+                                      std::span<const double> spread_deg,
+                                      std::span<const double> angle_defect_deg) {
   std::vector<FeatureEdge> creases;
   Roughness roughness(topology.vertex_count());
   for (Corner c = 0; c < 3 * triangles.size(); ++c) {
@@ -136,6 +155,10 @@ std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const
   }
   std::erase_if(creases, [&](const FeatureEdge& e) {
     return turns_deg[e.corner] < options.over_roughness * roughness.mean(e.vertices);
+  });
+  const std::vector<std::uint8_t> in_web = webs(creases, topology, options, angle_defect_deg);
+  std::erase_if(creases, [&](const FeatureEdge& e) {
+    return turns_deg[e.corner] <= options.sharp_edge_deg && in_web[e.vertices[0]] + in_web[e.vertices[1]] > 0;
   });
   return CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_ends();
 }

@@ -15,14 +15,16 @@ namespace isorelax {
 
 /// The creases among the edges of a mesh, in the order of their corners: what is_crease says, without what is
 /// roughness rather than a line that somebody would draw. Left out are edges that turn by less than
-/// `over_roughness` times the mean of the edges at their ends that are no creases; lines of fewer edges than
-/// `least_crease_edges` that end in the middle of a face, unless they turn by more than `sharp_edge_deg` on
-/// the average; and lines of fewer than twice as many that do so at both ends.
+/// `over_roughness` times the mean of the edges at their ends that are no creases; those up to
+/// `sharp_edge_deg` where creases go every which way; lines of fewer edges than `least_crease_edges` that end
+/// in the middle of a face, unless they turn by more than `sharp_edge_deg` on the average; and lines of fewer
+/// than twice as many that do so at both ends.
 ///
-/// `turns_deg` are those of dihedral_turns_deg, `spread_deg` those of VertexClasses.
+/// `turns_deg` are those of dihedral_turns_deg, `spread_deg` and `angle_defect_deg` those of VertexClasses.
 [[nodiscard]] std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles,
                                                     const Topology& topology, const FeatureOptions& options,
                                                     std::span<const double> turns_deg,
-                                                    std::span<const double> spread_deg);
+                                                    std::span<const double> spread_deg,
+                                                    std::span<const double> angle_defect_deg);
 
 }  // namespace isorelax

@@ -72,7 +72,7 @@ class Classifier {
 
   /// Between the passes: what is_crease_ and the lines go by.
   void find_lines() {
-    r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg);
+    r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
     for (const FeatureEdge& e : r_.creases)
       is_crease_[e.corner] = is_crease_[topology_.opposite(e.corner)] = 1;
   }
