@@ -1,8 +1,8 @@
 """Runs clang-tidy over every source of a build folder: tidy.py BUILD-FOLDER.
 
 Most of clang-tidy's time goes into the same headers again and again, so the sources of a target are first looked at
-together, as one translation unit. Only where that has findings (or does not compile, because two files use a name
-each for itself) are its files looked at one by one, and only what is found there counts. A clean result is kept in
+together, as one translation unit. Files in which that has findings (or does not compile, because two files use a name
+each for itself) are looked at one by one, and only what is found there counts. A clean result is kept in
 BUILD-FOLDER/tidy and holds until one of the files, the headers they include, the options or the tool changes.
 """
 
@@ -95,19 +95,22 @@ class Checker:
         mark = self.cache / f"{key}.clean"
         if key and mark.exists():
             return ""
-        if len(sources) > 1:
+        alone, rest = [], sources
+        while len(rest) > 1:
             together = self.cache / f"{target}_{first}.cpp"
-            together.write_text("".join(f'#include "{source}"\n' for source in sources))
+            together.write_text("".join(f'#include "{source}"\n' for source in rest))
             clean, text = self.tidy(together, options, *TOGETHER)
-        else:
-            clean, text = False, ""
-        findings = []
-        if not clean:
-            results = [self.tidy(source, options) for source in sources]
-            findings = [found for good, found in results if not good]
-            if text and not findings:
-                reason = next((line for line in text.splitlines() if "error:" in line), text[:200])
-                print(f"{target}: clean one by one, not together, which takes longer: {reason}", flush=True)
+            if clean:
+                break
+            # Whoever is named is looked at by itself; the others try again without.
+            errors = [line for line in text.splitlines() if "error:" in line]
+            named = [source for source in rest if any(line.startswith(f"{source}:") for line in errors)] or rest
+            alone += named
+            rest = [source for source in rest if source not in named]
+        if len(rest) == 1:
+            alone += rest
+        results = [self.tidy(source, options) for source in alone]
+        findings = [text for good, text in results if not good]
         if not findings and key:
             mark.touch()
         return "\n".join(findings)

@@ -11,13 +11,13 @@ namespace {
 constexpr double kEnough = 1e-4;
 constexpr int kMaxHalvings = 40;
 
-struct Pair {
+struct CurvaturePair {
   Eigen::VectorXd move, change;
   double curvature;  // move . change > 0
 };
 
 /// The two-loop recursion: minus the remembered inverse Hessian times the gradient.
-Eigen::VectorXd descent_direction(const std::deque<Pair>& pairs, const Eigen::VectorXd& gradient) {
+Eigen::VectorXd descent_direction(const std::deque<CurvaturePair>& pairs, const Eigen::VectorXd& gradient) {
   Eigen::VectorXd d = -gradient;
   std::vector<double> alphas(pairs.size());
   for (std::size_t k = pairs.size(); k-- > 0;) {
@@ -35,7 +35,7 @@ Eigen::VectorXd descent_direction(const std::deque<Pair>& pairs, const Eigen::Ve
 double minimise(const DifferentiableFunction& function, Eigen::VectorXd& x, const MinimiseOptions& options) {
   Eigen::VectorXd gradient(x.size()), next_gradient(x.size());
   double value = function(x, gradient);
-  std::deque<Pair> pairs;
+  std::deque<CurvaturePair> pairs;
   for (unsigned i = 0; i < options.iterations; ++i) {
     const double steepness = gradient.norm();
     if (!(steepness > 0)) break;
@@ -61,7 +61,7 @@ double minimise(const DifferentiableFunction& function, Eigen::VectorXd& x, cons
       pairs.clear();
       continue;
     }
-    Pair pair{there - x, next_gradient - gradient, 0};
+    CurvaturePair pair{there - x, next_gradient - gradient, 0};
     pair.curvature = pair.move.dot(pair.change);
     if (pair.curvature > 1e-10 * pair.move.norm() * pair.change.norm()) {
       if (pairs.size() == options.memory) pairs.pop_front();

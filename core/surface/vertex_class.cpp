@@ -19,7 +19,7 @@ double spread(double part, double whole) {
   return whole > 0 ? 2 * std::atan(std::sqrt(std::max(0.0, part) / whole)) * kDegrees : 0;
 }
 
-double angle_between(const Vec3& a, const Vec3& b) {
+double angle_between_deg(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
 }
 
@@ -45,7 +45,7 @@ class Classifier {
     for (const Corner c : topology_.corners_of(v)) {
       const Triangle& t = triangles_[c / 3];
       const unsigned k = c % 3;
-      angles += angle_between(x_[t[next(k)]] - x_[v], x_[t[previous(k)]] - x_[v]);
+      angles += angle_between_deg(x_[t[next(k)]] - x_[v], x_[t[previous(k)]] - x_[v]);
       for (const unsigned side : {next(k), previous(k)}) sharpest = std::max(sharpest, turns_[c - k + side]);
     }
     r_.sharpest_edge_deg[v] = sharpest;
@@ -127,7 +127,7 @@ class Classifier {
 
   /// Turn of the line from one point over the vertex to the other.
   [[nodiscard]] double turn(Index v, std::array<Index, 2> ends) const {
-    return 180 - angle_between(x_[ends[0]] - x_[v], x_[ends[1]] - x_[v]);
+    return 180 - angle_between_deg(x_[ends[0]] - x_[v], x_[ends[1]] - x_[v]);
   }
 
   /// The next vertex of the line that comes from `behind` to `v`; `v` where it does not run on.

@@ -64,8 +64,8 @@ class Corpus : public testing::TestWithParam<std::string> {
     TriangleMesh after = before;
     BoundedResult result = run_bounded(
         after.positions, after.triangles, options,
-        [](const SmoothingProblem& p) { return make_smoother(p, Solver::automatic); }, RunOptions{},
-        DeviationLimit{});
+        [](const SmoothingProblem& p) { return make_smoother(p, Solver::automatic); },
+        RunOptions{.iterations = 40}, DeviationLimit{});
     Smoothed smoothed{std::move(before), std::move(after), std::move(problem), std::move(result)};
     return cache.emplace(GetParam(), std::move(smoothed)).first->second;
   }

@@ -8,14 +8,14 @@
 namespace isorelax {
 namespace {
 
-struct Case {
+struct JacobiCase {
   const char* name;
   TriangleMesh mesh;
   ProblemOptions options;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<JacobiCase> jacobi_cases() {
+  std::vector<JacobiCase> all;
   all.push_back({"random square", generate(ShapeKind::random_square, {.seed = 3, .triangles = 800}), {}});
   all.push_back({"random square, sliding",
                  generate(ShapeKind::random_square, {.seed = 4, .triangles = 800}),
@@ -47,7 +47,7 @@ TEST(JacobiStep, IsPure) {
 }
 
 TEST(JacobiStep, NeverRaisesTheEnergyAndNeverTurnsATriangle) {
-  for (Case& c : cases()) {
+  for (JacobiCase& c : jacobi_cases()) {
     const SmoothingProblem problem = make_problem(c.mesh.positions, c.mesh.triangles, c.options);
     const auto smoother = make_jacobi(problem, {.relaxation = 1.5});
     StepRecord record;
@@ -66,7 +66,7 @@ TEST(JacobiStep, NeverRaisesTheEnergyAndNeverTurnsATriangle) {
 }
 
 TEST(JacobiStep, RecordsTheEnergyOfThePositionsItLeadsTo) {
-  for (Case& c : cases()) {
+  for (JacobiCase& c : jacobi_cases()) {
     const SmoothingProblem problem = make_problem(c.mesh.positions, c.mesh.triangles, c.options);
     const auto smoother = make_jacobi(problem);
     StepRecord record;
@@ -79,7 +79,7 @@ TEST(JacobiStep, RecordsTheEnergyOfThePositionsItLeadsTo) {
 }
 
 TEST(JacobiStep, IsTheSameForAnyNumberOfThreads) {
-  for (Case& c : cases()) {
+  for (JacobiCase& c : jacobi_cases()) {
     std::vector<std::vector<Vec3>> results;
     for (const unsigned threads : {1U, 2U, 5U}) {
       c.options.threads = threads;

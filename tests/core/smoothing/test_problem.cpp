@@ -27,7 +27,7 @@ TriangleMesh grid() {
   return mesh;
 }
 
-SmoothingProblem problem_of(const TriangleMesh& mesh, const ProblemOptions& options = {}) {
+SmoothingProblem frozen(const TriangleMesh& mesh, const ProblemOptions& options = {}) {
   return make_problem(mesh.positions, mesh.triangles, options);
 }
 
@@ -38,12 +38,12 @@ bool any_note_has(const SmoothingProblem& problem, const std::string& text) {
 
 TEST(Problem, BoundaryRuleDecidesWhoMayMove) {
   const TriangleMesh mesh = grid();
-  const SmoothingProblem fixed = problem_of(mesh);
+  const SmoothingProblem fixed = frozen(mesh);
   EXPECT_EQ(fixed.mobility[4], Mobility::plane);
   EXPECT_EQ(fixed.mobility[1], Mobility::none);
   EXPECT_EQ(fixed.fixed_limits[1], kLimitBoundary);
 
-  const SmoothingProblem slide = problem_of(mesh, {.boundary = BoundaryRule::slide});
+  const SmoothingProblem slide = frozen(mesh, {.boundary = BoundaryRule::slide});
   EXPECT_EQ(slide.mobility[1], Mobility::line);
   EXPECT_EQ(slide.mobility[0], Mobility::none);
   EXPECT_EQ(slide.fixed_limits[0], kLimitBoundary | kLimitCorner);
@@ -51,23 +51,23 @@ TEST(Problem, BoundaryRuleDecidesWhoMayMove) {
   std::sort(ends.begin(), ends.end());
   EXPECT_EQ(ends, (std::array<Index, 2>{0, 2}));
 
-  const SmoothingProblem free = problem_of(mesh, {.boundary = BoundaryRule::free});
+  const SmoothingProblem free = frozen(mesh, {.boundary = BoundaryRule::free});
   EXPECT_EQ(free.mobility[1], Mobility::plane);
   EXPECT_EQ(free.mobility[0], Mobility::none);
 }
 
 TEST(Problem, PlanarMeshIsRecognised) {
-  EXPECT_TRUE(problem_of(grid()).plane_normal.has_value());
+  EXPECT_TRUE(frozen(grid()).plane_normal.has_value());
   TriangleMesh bent = grid();
   bent.positions[4].z() = 0.1;
-  EXPECT_FALSE(problem_of(bent).plane_normal.has_value());
+  EXPECT_FALSE(frozen(bent).plane_normal.has_value());
 }
 
 TEST(Problem, NonManifoldPlacesArePinnedAndNamed) {
   TriangleMesh mesh = grid();
   mesh.positions.emplace_back(0, 0, 1);
   mesh.triangles.push_back({1, 4, 9});
-  const SmoothingProblem problem = problem_of(mesh);
+  const SmoothingProblem problem = frozen(mesh);
   EXPECT_EQ(problem.mobility[4], Mobility::none);
   EXPECT_TRUE(problem.fixed_limits[4] & kLimitPinned);
   EXPECT_TRUE(any_note_has(problem, "non-manifold vertices are pinned: 1, 4")) << problem.notes.front();
@@ -76,7 +76,7 @@ TEST(Problem, NonManifoldPlacesArePinnedAndNamed) {
 TEST(Problem, DegenerateTriangleIsLeftOutAndNamed) {
   TriangleMesh mesh = grid();
   mesh.positions[4] = mesh.positions[1];
-  const SmoothingProblem problem = problem_of(mesh);
+  const SmoothingProblem problem = frozen(mesh);
   EXPECT_TRUE(any_note_has(problem, "degenerate"));
   EXPECT_EQ(problem.mobility[4], Mobility::none);
   EXPECT_EQ(std::count(problem.treated.begin(), problem.treated.end(), 0), 2);
@@ -85,33 +85,33 @@ TEST(Problem, DegenerateTriangleIsLeftOutAndNamed) {
 TEST(Problem, InvertedTriangleOfAPlaneIsLeftOutAndNamed) {
   TriangleMesh mesh = grid();
   mesh.positions[4] = {-0.5, 1, 0};
-  const SmoothingProblem problem = problem_of(mesh);
+  const SmoothingProblem problem = frozen(mesh);
   EXPECT_TRUE(any_note_has(problem, "inverted"));
   EXPECT_EQ(problem.mobility[4], Mobility::none);
 }
 
 TEST(Problem, PinnedVertexStays) {
-  const SmoothingProblem problem = problem_of(grid(), {.pinned = {4}});
+  const SmoothingProblem problem = frozen(grid(), {.pinned = {4}});
   EXPECT_EQ(problem.mobility[4], Mobility::none);
   EXPECT_EQ(problem.fixed_limits[4], kLimitPinned);
-  EXPECT_THROW(problem_of(grid(), {.pinned = {9}}), UsageError);
+  EXPECT_THROW(frozen(grid(), {.pinned = {9}}), UsageError);
 }
 
 TEST(Problem, RefusesWhatMakesNoSense) {
-  EXPECT_THROW(problem_of(grid(), {.weights = {0, 0}}), UsageError);
-  EXPECT_THROW(problem_of(grid(), {.weights = {-1, 2}}), UsageError);
-  EXPECT_THROW(problem_of(grid(), {.exponent = 0.5}), UsageError);
-  EXPECT_THROW(problem_of(grid(), {.reference = EdgeLengthReference{-1}}), UsageError);
-  EXPECT_THROW(problem_of(grid(), {.reference = MeshReference{{{0, 0, 0}}}}), MeshError);
+  EXPECT_THROW(frozen(grid(), {.weights = {0, 0}}), UsageError);
+  EXPECT_THROW(frozen(grid(), {.weights = {-1, 2}}), UsageError);
+  EXPECT_THROW(frozen(grid(), {.exponent = 0.5}), UsageError);
+  EXPECT_THROW(frozen(grid(), {.reference = EdgeLengthReference{-1}}), UsageError);
+  EXPECT_THROW(frozen(grid(), {.reference = MeshReference{{{0, 0, 0}}}}), MeshError);
   TriangleMesh flat = grid();
   for (Vec3& p : flat.positions) p.y() = 0;
-  EXPECT_THROW(problem_of(flat), MeshError);
+  EXPECT_THROW(frozen(flat), MeshError);
   EXPECT_THROW(make_problem(flat.positions, {}, {}), MeshError);
 }
 
 TEST(Problem, CornersAndRidgesOfAPartAreHeld) {
   const TriangleMesh mesh = generate(ShapeKind::cube, {.triangles = 300});
-  const SmoothingProblem problem = problem_of(mesh);
+  const SmoothingProblem problem = frozen(mesh);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     constexpr Mobility kExpected[] = {Mobility::plane, Mobility::line, Mobility::none};
     EXPECT_EQ(problem.mobility[v], kExpected[static_cast<unsigned>(problem.classes.classes[v])]);
