@@ -162,7 +162,7 @@ class SmoothCommand : public Command {
     about.arguments = run_.words();
     about.resources = run_.resources();
     TraceRecorder recorder(std::move(about), mesh);
-    const SmoothOutcome outcome =
+    SmoothOutcome outcome =
         run_.smooth(console, input_, mesh,
                     [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
                       recorder.add(iteration, record, positions);

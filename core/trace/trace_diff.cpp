@@ -1,13 +1,17 @@
 #include "trace/trace_diff.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 
 namespace isorelax {
 namespace {
 
 bool same_bits(const Vec3& a, const Vec3& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(Vec3)) == 0;
+  const auto same = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
+  return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
 }
 
 double largest_distance(std::span<const Vec3> first, std::span<const Vec3> second) {
