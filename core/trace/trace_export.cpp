@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <typename Number>
-void append(std::string& text, Number value) {
+void append_number(std::string& text, Number value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   text.append(buffer.data(), end);
@@ -77,13 +77,13 @@ class VtkPolyData {
   void close() { text_ += "</DataArray>\n"; }
   template <typename Number>
   void item(Number value) {
-    append(text_, value);
+    append_number(text_, value);
     text_ += '\n';
   }
   void vector(const Vec3& p) {
-    append(text_, p.x());
+    append_number(text_, p.x());
     text_ += ' ';
-    append(text_, p.y());
+    append_number(text_, p.y());
     text_ += ' ';
     item(p.z());
   }
@@ -111,7 +111,7 @@ std::string trace_csv(const Trace& trace) {
     text += std::to_string(k);
     visit_numbers(k == 0 ? start : trace.iterations[k - 1], [&](std::string_view, const auto& value) {
       text += ',';
-      append(text, value);
+      append_number(text, value);
     });
     text += '\n';
   }

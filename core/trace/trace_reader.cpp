@@ -9,8 +9,6 @@
 namespace isorelax {
 namespace {
 
-using Json = nlohmann::json;
-
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -75,12 +73,12 @@ class Reader {
   }
 
   void read_head() {
-    const Json json = Json::parse(part("HEAD"), nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(part("HEAD"), nullptr, false);
     try {
       trace_.program = json.at("program").get<std::string>();
       trace_.input = json.at("input").get<std::string>();
       trace_.arguments = json.at("arguments").get<std::vector<std::string>>();
-      for (const Json& file : json.at("resources"))
+      for (const nlohmann::json& file : json.at("resources"))
         trace_.resources.push_back({file.at("path").get<std::string>(), file.at("hash").get<std::string>()});
       vertices_ = json.at("vertices").get<std::size_t>();
       triangles_ = json.at("triangles").get<std::size_t>();
@@ -92,7 +90,7 @@ class Reader {
                         json.at("mean_min_angle_deg").get<double>(), json.at("inverted").get<std::size_t>()};
       trace_.stopped = json.at("stopped").get<std::string>();
       trace_.stopped_because = json.at("stopped_because").get<std::string>();
-    } catch (const Json::exception& error) {
+    } catch (const nlohmann::json::exception& error) {
       fail(part_start_, std::string("the head cannot be understood: ") + error.what());
     }
   }
