@@ -12,6 +12,7 @@
 #include "cli/table.h"
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
+#include "io/text_out.h"
 #include "mesh/error.h"
 #include "trace/predicate.h"
 #include "trace/recorder.h"
@@ -22,18 +23,13 @@
 namespace isorelax::cli {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string position_text(const Vec3& p) {
-  const auto digits = [](double x) {
-    std::array<char, 32> buffer{};
-    return std::string(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr);
-  };
-  return "(" + digits(p.x()) + ", " + digits(p.y()) + ", " + digits(p.z()) + ")";
+  std::string text = "(";
+  for (const double x : p) {
+    if (text.size() > 1) text += ", ";
+    append_number(text, x);
+  }
+  return text + ")";
 }
 
 std::string parting_text(const TraceParting& parting) {
@@ -176,7 +172,7 @@ class TraceCommand : public Command {
     table.row("input", trace.input);
     table.row("mesh", std::to_string(trace.positions.size()) + " vertices, " +
                           std::to_string(trace.triangles.size()) + " triangles");
-    table.row("arguments", trace.arguments.empty() ? "none" : joined(trace.arguments));
+    table.row("arguments", trace.arguments.empty() ? "none" : trace.arguments_text());
     for (const TraceResource& file : trace.resources) table.row("read", file.path + " (" + file.hash + ")");
     table.row("stopped", trace.stopped_because);
     console.result(one_line_each(table.text()) + "\n" + iteration_table(trace));

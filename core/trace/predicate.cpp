@@ -15,7 +15,8 @@ using Value = Predicate::Value;
 
 /// Thrown inside the parser only.
 struct Mistake {
-  PredicateMistake what;
+  std::size_t column;  // from 1
+  std::string reason;
 };
 
 double truth(bool holds) {
@@ -39,7 +40,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const { throw Mistake{{at_ + 1, reason}}; }
+  [[noreturn]] void fail(const std::string& reason) const { throw Mistake{at_ + 1, reason}; }
 
   void skip_space() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
@@ -219,22 +220,13 @@ Predicate::Predicate(std::string text) : text_(std::move(text)) {
   try {
     value_ = Parser(text_).parse();
   } catch (const Mistake& mistake) {
-    throw UsageError(text_ + ": column " + std::to_string(mistake.what.column) + ": " + mistake.what.reason);
+    throw UsageError(text_ + ": column " + std::to_string(mistake.column) + ": " + mistake.reason);
   }
 }
 
 bool Predicate::holds(const Moment& moment) const {
   const double value = value_(moment);
   return value != 0 && !std::isnan(value);
-}
-
-std::optional<PredicateMistake> Predicate::check(std::string_view text) {
-  try {
-    (void)Parser(text).parse();
-    return std::nullopt;
-  } catch (const Mistake& mistake) {
-    return mistake.what;
-  }
 }
 
 std::string Predicate::reference() {

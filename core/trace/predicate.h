@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,12 +20,6 @@ struct Moment {
   bool stop = false;  ///< the run ends with this iteration
 };
 
-/// A mistake in the text of a predicate, and where it stands.
-struct PredicateMistake {
-  std::size_t column = 0;  ///< from 1
-  std::string reason;
-};
-
 /// A condition on the iterations of a run, such as
 ///   min_angle < 5      energy_rose      folded > 0      class_changed      iteration == 40      stop
 ///   vertex(812).alpha < 0.1 && !energy_rose      triangle(3).min_angle < 2 * min_angle
@@ -44,8 +37,6 @@ class Predicate {
 
   /// Every name and field with its meaning, one per line: for --help and the editor.
   [[nodiscard]] static std::string reference();
-  /// The first mistake in the text; none when it is a predicate.
-  [[nodiscard]] static std::optional<PredicateMistake> check(std::string_view text);
 
   using Value = std::function<double(const Moment&)>;
 

@@ -5,11 +5,10 @@
 
 namespace isorelax {
 
-std::size_t Trace::size_in_memory() const {
-  std::size_t bytes = positions.size() * sizeof(Vec3) + triangles.size() * sizeof(Triangle);
-  for (const TraceIteration& iteration : iterations)
-    bytes += sizeof(TraceIteration) + iteration.delta.capacity();
-  return bytes;
+std::string Trace::arguments_text() const {
+  std::string text;
+  for (const std::string& word : arguments) text += (text.empty() ? "" : " ") + word;
+  return text;
 }
 
 const std::vector<Vec3>& TraceCursor::go_to(std::size_t iteration) {

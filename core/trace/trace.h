@@ -59,8 +59,8 @@ struct Trace {
   std::string stopped;          ///< why the run ended, in one word
   std::string stopped_because;  ///< and in one sentence
 
-  /// Bytes that the record of all iterations takes in memory.
-  [[nodiscard]] std::size_t size_in_memory() const;
+  /// The arguments with spaces between them.
+  [[nodiscard]] std::string arguments_text() const;
 };
 
 /// Walks through the positions of a trace in both directions; each iteration on the way costs one delta.

@@ -20,12 +20,6 @@ double largest_distance(std::span<const Vec3> first, std::span<const Vec3> secon
   return largest;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string listed(const std::vector<TraceResource>& files) {
   std::string text;
   for (const TraceResource& file : files)
@@ -58,7 +52,7 @@ TraceDifference compare_traces(const Trace& first, const Trace& second) {
   };
   setting("program", first.program, second.program);
   setting("input", first.input, second.input);
-  setting("arguments", joined(first.arguments), joined(second.arguments));
+  setting("arguments", first.arguments_text(), second.arguments_text());
   setting("files read", listed(first.resources), listed(second.resources));
   setting("iterations", std::to_string(first.iterations.size()), std::to_string(second.iterations.size()));
   setting("stopped", first.stopped, second.stopped);

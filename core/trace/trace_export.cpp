@@ -1,11 +1,10 @@
 #include "trace/trace_export.h"
 
-#include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
+#include "io/text_out.h"
 #include "mesh/error.h"
 #include "quality/triangle_metrics.h"
 #include "trace/trace_file.h"
@@ -15,11 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <typename Number>
-void append_number(std::string& text, Number value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  text.append(buffer.data(), end);
+void append(std::string& text, double value) {
+  append_number(text, value);
+}
+void append(std::string& text, std::size_t value) {
+  append_integer(text, value);
 }
 
 std::string numbered(std::size_t iteration, const std::string& extension) {
@@ -52,7 +51,7 @@ class VtkPolyData {
     text_ += "</Points>\n<Polys>\n";
     array("Int64", "connectivity", 1);
     for (const Triangle& t : trace_.triangles)
-      for (const Index v : t) item(v);
+      for (const Index v : t) item(std::size_t{v});
     close();
     array("Int64", "offsets", 1);
     for (std::size_t t = 1; t <= trace_.triangles.size(); ++t) item(3 * t);
@@ -77,7 +76,7 @@ class VtkPolyData {
   void close() { text_ += "</DataArray>\n"; }
   template <typename Number>
   void item(Number value) {
-    append_number(text_, value);
+    append(text_, value);
     text_ += '\n';
   }
   void vector(const Vec3& p) {
@@ -111,7 +110,7 @@ std::string trace_csv(const Trace& trace) {
     text += std::to_string(k);
     visit_numbers(k == 0 ? start : trace.iterations[k - 1], [&](std::string_view, const auto& value) {
       text += ',';
-      append_number(text, value);
+      append(text, value);
     });
     text += '\n';
   }

@@ -16,8 +16,8 @@ namespace isorelax {
 /// visit_numbers().
 [[nodiscard]] std::string trace_json(const Trace& trace);
 
-/// Writes the meshes after the given iterations into a folder, which is made if missing: NAME_0007.off and so
-/// on. Returns the files. Throws Error for an iteration that is not there, OutputError.
+/// Writes the meshes after the given iterations into a folder, which is made if missing: iteration_00007.off
+/// and so on. Returns the files. Throws Error for an iteration that is not there, OutputError.
 std::vector<std::filesystem::path> export_meshes(const Trace& trace,
                                                  const std::vector<std::size_t>& iterations,
                                                  const std::filesystem::path& folder,

@@ -71,9 +71,17 @@ TEST_F(PredicateTest, BindsAsInC) {
 }
 
 TEST_F(PredicateTest, ShowsAMistakeAtItsPlace) {
-  const auto column = [](const std::string& text) {
-    const auto mistake = Predicate::check(text);
-    return mistake ? mistake->column : 0;
+  // 0: no mistake.
+  const auto column = [](const std::string& text) -> unsigned long {
+    try {
+      const Predicate predicate(text);
+      return 0;
+    } catch (const UsageError& error) {
+      const std::string line = error.what();
+      const std::string before = text + ": column ";
+      EXPECT_EQ(line.rfind(before, 0), 0U) << line;
+      return std::stoul(line.substr(before.size()));
+    }
   };
   EXPECT_EQ(column("min_angle < 5"), 0U);
   EXPECT_EQ(column("min_angl < 5"), 1U);
@@ -95,7 +103,7 @@ TEST_F(PredicateTest, EveryNameOfTheReferenceIsOne) {
     const std::size_t end = reference.find('\n', at);
     std::string word = reference.substr(at + 2, reference.find(' ', at + 2) - at - 2);
     if (const auto id = word.find("ID"); id != std::string::npos) word.replace(id, 2, "0");
-    EXPECT_FALSE(Predicate::check(word).has_value()) << word;
+    EXPECT_NO_THROW(Predicate{word}) << word;
     at = end + 1;
     ++names;
   }

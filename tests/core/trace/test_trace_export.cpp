@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/temporary_mesh.h"
 #include "core/trace/recorded.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
@@ -12,19 +13,6 @@
 
 namespace isorelax::test {
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "isorelax-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw Error("no temporary folder");
-    path = pattern;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path path;
-};
 
 TEST(TraceExport, CsvHasALinePerIterationAndAsManyColumnsInEach) {
   const Recorded recorded = record(5);
@@ -48,19 +36,19 @@ TEST(TraceExport, JsonHoldsTheNumbersToTheBit) {
 
 TEST(TraceExport, MeshesAreThoseOfTheRun) {
   const Recorded recorded = record(5);
-  const Folder folder;
-  const auto files = export_meshes(recorded.trace, {0, 5, 2}, folder.path, ".off");
+  const TemporaryFolder folder;
+  const auto files = export_meshes(recorded.trace, {0, 5, 2}, folder.path(), ".off");
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(read_mesh(files[0]).mesh.positions, recorded.positions[0]);
   EXPECT_EQ(read_mesh(files[1]).mesh.positions, recorded.positions[5]);
   EXPECT_EQ(read_mesh(files[2]).mesh.positions, recorded.positions[2]);
-  EXPECT_THROW((void)export_meshes(recorded.trace, {6}, folder.path, ".off"), Error);
+  EXPECT_THROW((void)export_meshes(recorded.trace, {6}, folder.path(), ".off"), Error);
 }
 
 TEST(TraceExport, VtkSeriesNamesEveryFileInItsIndex) {
   const Recorded recorded = record(3);
-  const Folder folder;
-  const auto files = export_vtk_series(recorded.trace, {0, 3}, folder.path);
+  const TemporaryFolder folder;
+  const auto files = export_vtk_series(recorded.trace, {0, 3}, folder.path());
   ASSERT_EQ(files.size(), 3U);
   std::ostringstream index;
   index << std::ifstream(files.back()).rdbuf();
