@@ -5,8 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "quality/triangle_metrics.h"
-#include "render/picture.h"
+#include "view/picture.h"
 
 namespace isorelax::cli {
 namespace {
@@ -96,28 +95,6 @@ const PaperRow& row_of(const std::vector<PaperRow>& rows, std::string_view key) 
   return *std::find_if(rows.begin(), rows.end(), [&](const PaperRow& row) { return row.key == key; });
 }
 
-render::Image panel(const PaperRow& row, std::size_t mesh, const std::string& title) {
-  const TriangleMesh& m = row.meshes[mesh];
-  const std::vector<double> angles = face_metric(FaceMetric::min_angle, m.positions, m.triangles);
-  render::PictureOptions options;
-  options.size = {900, 760};
-  options.wire = true;
-  options.camera = "top";
-  options.background = render::kWhiteBackground;
-  options.caption = title + ": angles from " + angle_text(row.quality[mesh].min_angle_deg) + " to " +
-                    angle_text(row.quality[mesh].max_angle_deg) + "\u00b0";
-  return render::render_picture(m, render::FaceColors{render::Quantity::min_angle, angles}, options);
-}
-
-void paste(render::Image& onto, const render::Image& part, int left, int top) {
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x) {
-      const auto pixel = part.at(x, y);
-      std::copy(pixel.begin(), pixel.end(), onto.at(left + x, top + y).begin());
-    }
-  }
-}
-
 }  // namespace
 
 std::string paper_text(const std::vector<PaperRow>& rows, const PaperTableOptions& options) {
@@ -179,14 +156,22 @@ render::Image paper_picture(const std::vector<PaperRow>& rows) {
   constexpr std::size_t kR1 = 3;
   const PaperRow& before = row_of(rows, "original");
   const PaperRow& after = row_of(rows, "cnea");
-  const std::array<render::Image, 4> panels = {
-      panel(before, kU1, "(a) U1 as made"), panel(after, kU1, "(b) U1 after CNEA"),
-      panel(before, kR1, "(c) R1 as made"), panel(after, kR1, "(d) R1 after CNEA")};
-  const int width = panels[0].width;
-  const int height = panels[0].height;
-  render::Image all(2 * width, 2 * height);
-  for (int i = 0; i < 4; ++i) paste(all, panels[static_cast<std::size_t>(i)], i % 2 * width, i / 2 * height);
-  return all;
+  view::View view;
+  view.size = {1800, 1520};
+  view.wire = true;
+  view.camera = "top";
+  view.background = render::kWhiteBackground;
+  view::Exhibits exhibits;
+  const auto add = [&](const PaperRow& row, std::size_t mesh, const std::string& title) {
+    exhibits.meshes.push_back(&row.meshes[mesh]);
+    view.labels.push_back(title + ": angles from " + angle_text(row.quality[mesh].min_angle_deg) + " to " +
+                          angle_text(row.quality[mesh].max_angle_deg) + "\u00b0");
+  };
+  add(before, kU1, "(a) U1 as made");
+  add(after, kU1, "(b) U1 after CNEA");
+  add(before, kR1, "(c) R1 as made");
+  add(after, kR1, "(d) R1 after CNEA");
+  return view::Studio().draw(view, exhibits).image;
 }
 
 }  // namespace isorelax::cli

@@ -6,6 +6,7 @@ std::unique_ptr<Command> make_info_command();
 std::unique_ptr<Command> make_quality_command();
 std::unique_ptr<Command> make_smooth_command();
 std::unique_ptr<Command> make_render_command();
+std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_generate_command();
 std::unique_ptr<Command> make_benchmark_command();
 std::unique_ptr<Command> make_trace_command();
@@ -17,6 +18,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(make_quality_command());
   commands.push_back(make_smooth_command());
   commands.push_back(make_render_command());
+  commands.push_back(make_compare_command());
   commands.push_back(make_generate_command());
   commands.push_back(make_benchmark_command());
   commands.push_back(make_trace_command());

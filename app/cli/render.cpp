@@ -1,118 +1,108 @@
-#include "render/picture.h"
-
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
-#include "cli/problem_options.h"
+#include "cli/view_options.h"
+#include "io/atomic_file.h"
 #include "mesh/error.h"
-#include "quality/triangle_metrics.h"
-#include "render/image.h"
-#include "smoothing/run.h"
+#include "view/picture.h"
 
 namespace isorelax::cli {
 namespace {
 
-/// E of every triangle against equilateral references of mean area, weights (1, 1): what `--color energy`
-/// shows.
-std::vector<double> face_energies(const TriangleMesh& mesh) {
-  const ReferenceMesh reference = ReferenceMesh::equilateral_mean_area(mesh.positions, mesh.triangles);
-  std::vector<double> energies;
-  energies.reserve(mesh.triangles.size());
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const Triangle& v = mesh.triangles[t];
-    energies.push_back(evaluate_energy({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]},
-                                       reference[t], {1, 1})
-                           .energy);
-  }
-  return energies;
+/// A file that a view names, from here or from the folder of the view's own file.
+std::string find_file(const std::string& name, const std::string& view_file) {
+  std::error_code ignored;
+  const std::filesystem::path beside = std::filesystem::path(view_file).parent_path() / name;
+  const bool here = std::filesystem::exists(name, ignored);
+  return !here && std::filesystem::exists(beside, ignored) ? beside.string() : name;
 }
 
-struct Coloured {
-  render::Quantity quantity;
-  std::vector<double> values;
-};
-
-std::optional<Coloured> colour_faces(const std::string& color, const TriangleMesh& mesh) {
-  using render::Quantity;
-  const auto metric = [&](FaceMetric m) { return face_metric(m, mesh.positions, mesh.triangles); };
-  if (color == "angle") return Coloured{Quantity::min_angle, metric(FaceMetric::min_angle)};
-  if (color == "max-angle") return Coloured{Quantity::max_angle, metric(FaceMetric::max_angle)};
-  if (color == "area") return Coloured{Quantity::area, metric(FaceMetric::relative_area)};
-  if (color == "energy") return Coloured{Quantity::energy, face_energies(mesh)};
-  if (color == "none") return std::nullopt;
-  throw UsageError("--color " + color + ": expected angle, max-angle, area, energy or none");
+/// The names of given files, in the view's own words where they are the same files: the same view stays the
+/// same text.
+std::vector<std::string> named_like(const std::vector<std::string>& given,
+                                    const std::vector<std::string>& known) {
+  std::vector<std::string> names = given;
+  std::error_code ignored;
+  for (std::size_t i = 0; i < names.size() && i < known.size(); ++i)
+    if (std::filesystem::equivalent(names[i], known[i], ignored)) names[i] = known[i];
+  return names;
 }
 
 class RenderCommand : public Command {
  public:
   [[nodiscard]] std::string name() const override { return "render"; }
-  [[nodiscard]] std::string summary() const override { return "Draw a picture of a mesh, without a display"; }
+  [[nodiscard]] std::string summary() const override { return "Draw a picture of meshes, without a display"; }
   [[nodiscard]] std::string notes() const override {
-    return "Camera: fit, front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION[,ZOOM] in degrees. "
-           "Planar\n"
-           "meshes are seen from above, others from the front right. The same options give the same picture, "
-           "byte\n"
-           "for byte. --color area is relative to the mean area, --color energy is K + S against "
-           "equilateral\n"
-           "triangles of the mean area.\n"
+    return "Several meshes stand side by side, with one camera and one range of colours.\n"
+           "\n"
+           "Camera: fit, front, back, left, right, top, bottom, iso, or AZIMUTH,ELEVATION[,ZOOM] in degrees, "
+           "then\n"
+           "options behind colons: perspective, orthographic, y-up, z-up, zoom=FACTOR. Planar meshes are "
+           "seen from\n"
+           "above, others from the front right. --color area is relative to the mean area, --color energy is "
+           "K + S\n"
+           "against equilateral triangles of the mean area; values outside the range are grey.\n"
+           "\n"
+           "The same options give the same picture, byte for byte, and every picture carries the view that "
+           "made it:\n"
+           "--like PICTURE.png draws it again, of the same mesh or of another. --save-view writes that view "
+           "as JSON\n"
+           "for --camera; what stands beside either option changes the view. Where no mesh is given, the "
+           "view's own\n"
+           "are drawn.\n"
            "\n"
            "Examples:\n"
            "  isorelax render part.off -o part.png --wire\n"
-           "  isorelax render part.off -o area.png --color area --size 1920x1080 --camera top --range 0.5:2";
+           "  isorelax render before.off after.off -o both.png --size 1920x1080 --camera iso --numbers\n"
+           "  isorelax render after.off -o change.png --against before.off --difference --arrows\n"
+           "  isorelax render other.off -o other.png --like part.png --color area --range 0.5:2";
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "Mesh: OFF, OBJ, PLY or STL")->required();
+    app.add_option("FILE", files_, "Meshes: OFF, OBJ, PLY or STL");
     app.add_option("-o,--output", output_, "PNG to write")->required()->type_name("PNG");
-    app.add_option("--size", size_, "Picture size in pixels (default 1280x720)")->type_name("WxH");
-    app.add_option("--color", color_, "angle (smallest, default), max-angle, area, energy or none")
-        ->type_name("C");
-    app.add_option("--range", range_, "Values at the ends of the colour map")->type_name("LO:HI");
-    app.add_option("--colormap", map_, "viridis, cividis, inferno, magma or blue-orange")->type_name("MAP");
-    app.add_flag("--reverse", options_.reversed, "Turn the colour map round");
-    app.add_option("--camera", options_.camera, "Where from (default fit)")->type_name("SPEC");
-    app.add_option("--shading", shading_, "flat (default) or smooth")->type_name("S");
-    app.add_flag("--wire", options_.wire, "Draw the edges");
-    app.add_option("--legend", legend_, "on (default) or off")->type_name("on|off");
-    app.add_option("--background", background_, "dark (default), light, white, black, #rrggbb or r,g,b")
-        ->type_name("B");
-    app.add_option("--context", context_, "osmesa (default) or egl")->type_name("C");
+    options_.declare(app);
+    app.add_option("--save-view", view_file_, "Write the view here, to be read by --camera")
+        ->type_name("FILE.json");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
-    read_options();
+    view::View view = options_.read();
     if (std::filesystem::path(output_).extension() != ".png")
       throw UsageError(output_ + ": pictures are PNG files, named .png");
-    const TriangleMesh mesh = read_input(console, file_);
-    const auto colours = colour_faces(color_, mesh);
-    std::optional<render::FaceColors> faces;
-    if (colours) faces = render::FaceColors{colours->quantity, colours->values};
-    render::write_png(output_, render::render_picture(mesh, faces, options_));
-    console.message(output_ + ": " + size_ + " pixels");
+    if (!files_.empty()) view.meshes = named_like(files_, view.meshes);
+    if (view.meshes.empty()) throw UsageError("there is no mesh to draw: give its file");
+    const std::vector<TriangleMesh> meshes = read_meshes(console, view);
+    std::optional<TriangleMesh> against;
+    if (!view.against.empty()) against = read_input(console, find_file(view.against, options_.source()));
+    view::Exhibits exhibits;
+    for (const TriangleMesh& mesh : meshes) exhibits.meshes.push_back(&mesh);
+    if (against) exhibits.against = &*against;
+    view::Studio studio(options_.context());
+    const view::Picture picture = studio.draw(view, exhibits);
+    view::write_picture(output_, picture);
+    if (!view_file_.empty()) write_file_atomically(view_file_, view::to_json(picture.view));
+    console.message(output_ + ": " + std::to_string(picture.image.width) + "x" +
+                    std::to_string(picture.image.height) + " pixels");
     return kDone;
   }
 
  private:
-  void read_options() {
-    options_.size = render::parse_size(size_);
-    if (!range_.empty()) options_.range = render::parse_range(range_);
-    if (!map_.empty()) options_.color_map = render::parse_color_map(map_);
-    if (shading_ != "flat" && shading_ != "smooth")
-      throw UsageError("--shading " + shading_ + ": expected flat or smooth");
-    options_.shading = shading_ == "smooth" ? render::Shading::smooth : render::Shading::flat;
-    if (legend_ != "on" && legend_ != "off") throw UsageError("--legend " + legend_ + ": expected on or off");
-    options_.legend = legend_ == "on";
-    options_.background = render::parse_background(background_);
-    options_.context = render::parse_context_kind(context_);
+  std::vector<TriangleMesh> read_meshes(Console& console, const view::View& view) const {
+    std::vector<TriangleMesh> meshes;
+    for (std::size_t i = 0; i < view.meshes.size(); ++i)
+      meshes.push_back(
+          read_input(console, files_.empty() ? find_file(view.meshes[i], options_.source()) : files_[i]));
+    return meshes;
   }
 
-  std::string file_, output_;
-  std::string size_ = "1280x720", color_ = "angle", range_, map_, shading_ = "flat", legend_ = "on";
-  std::string background_ = "dark", context_ = "osmesa";
-  render::PictureOptions options_;
+  std::vector<std::string> files_;
+  std::string output_, view_file_;
+  ViewOptions options_;
   bool quiet_ = false;
 };
 

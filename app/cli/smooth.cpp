@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/frames.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
 #include "cli/smooth_run.h"
@@ -91,6 +92,7 @@ class SmoothCommand : public Command {
            "\n"
            "Examples:\n"
            "  isorelax smooth part.off -o better.off --report report.json\n"
+           "  isorelax smooth part.off -o better.off --frames run.png --every 2 --view iso\n"
            "  isorelax smooth plate.obj -o plate2.obj --mu 0.5 --boundary slide --iterations 500\n"
            "  isorelax smooth moved.ply -o moved.ply --reference initial.ply --pin held.txt\n"
            "  isorelax smooth square.off -o other.off --method angle-based --weighting plain --guard off";
@@ -104,6 +106,7 @@ class SmoothCommand : public Command {
     app.add_option("--trace", trace_, "Record every iteration in this file, for isorelax trace")
         ->type_name("FILE");
     watch_.declare(app);
+    frames_.declare(app);
     app.add_option("--report", report_, "Write a JSON report here")->type_name("FILE");
     app.add_flag("--quiet", quiet_, "Print nothing but errors");
   }
@@ -119,6 +122,7 @@ class SmoothCommand : public Command {
     check_writable(output_);
     if (!report_.empty()) check_writable(report_);
     if (!trace_.empty()) check_writable(trace_);
+    frames_.start(mesh.positions);
     const SmoothOutcome outcome = smooth(console, mesh);
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
     if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
@@ -128,6 +132,7 @@ class SmoothCommand : public Command {
     }
     for (const std::string& message : write_mesh(output_, mesh, write_like(file, output_)))
       console.message(output_ + ": " + message);
+    frames_.write(console, mesh, outcome.run.iterations);
     console.message(cli::summary(outcome));
     console.message("distance from the input surface " + number_text(outcome.deviation.max) + " at most, " +
                     number_text(outcome.deviation.rms) + " RMS (of the bounding-box diagonal)" +
@@ -155,7 +160,14 @@ class SmoothCommand : public Command {
 
   /// Runs, recording and watching as asked.
   SmoothOutcome smooth(Console& console, TriangleMesh& mesh) {
-    if (trace_.empty() && !watch_.wanted()) return run_.smooth(console, input_, mesh);
+    if (trace_.empty() && !watch_.wanted()) {
+      if (!frames_.wanted()) return run_.smooth(console, input_, mesh);
+      return run_.smooth(console, input_, mesh,
+                         [&](unsigned iteration, const StepRecord&, std::span<const Vec3> positions) {
+                           frames_.take(iteration, positions);
+                           return true;
+                         });
+    }
     Trace about;
     about.program = "isorelax " ISORELAX_VERSION;
     about.input = input_;
@@ -166,6 +178,7 @@ class SmoothCommand : public Command {
         run_.smooth(console, input_, mesh,
                     [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
                       recorder.add(iteration, record, positions);
+                      frames_.take(iteration, positions);
                       return watch_.look(console, recorder.trace(), record, positions);
                     });
     watch_.finish(console, recorder.trace());
@@ -180,6 +193,7 @@ class SmoothCommand : public Command {
   std::string input_, output_, report_, trace_;
   SmoothRun run_;
   Watch watch_;
+  Frames frames_;
   bool quiet_ = false;
 };
 

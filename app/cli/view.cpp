@@ -8,7 +8,7 @@
 #include "editor/screenshot.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
-#include "render/picture.h"
+#include "render/picture_size.h"
 #include "window/window.h"
 
 namespace isorelax::cli {

@@ -8,6 +8,14 @@
 
 namespace isorelax::render {
 
+/// A colour with its meaning.
+struct Swatch {
+  Color color;
+  std::string text;
+
+  friend bool operator==(const Swatch&, const Swatch&) = default;
+};
+
 /// What the bar at the right of a picture says. Plain data.
 struct Legend {
   std::string title;  ///< UTF-8, "Smallest angle"
@@ -20,6 +28,8 @@ struct Legend {
   bool shows_below = false;
   bool shows_above = false;
   bool shows_missing = false;
+  /// Where colours stand for kinds: one row each instead of the bar.
+  std::vector<Swatch> kinds;
 
   friend bool operator==(const Legend&, const Legend&) = default;
 };

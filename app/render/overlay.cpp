@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "render/canvas.h"
 
@@ -33,7 +34,9 @@ Inks inks_for(const Background& background) {
 }
 
 /// A veil of the background's own colours behind what is written: seen only where a mesh stands behind it.
-void veil(Canvas& canvas, const Background& background, int top, PictureSize size) {
+void veil(Canvas& canvas, const Scene& scene, int top, PictureSize size) {
+  if (scene.transparent) return;
+  const Background& background = scene.background;
   for (int y = 0; y < canvas.image().height; ++y) {
     const double below_top = std::clamp((top + y + 0.5) / size.height, 0.0, 1.0);
     canvas.fill(0, y, canvas.image().width, y + 1, mix(background.top, background.bottom, below_top), 0.6);
@@ -61,13 +64,15 @@ class LegendLayout {
   [[nodiscard]] int height() const { return static_cast<int>(std::ceil(height_)); }
 
   /// The legend with its upper left corner at row `top` of the picture.
-  Image paint(const Background& background, PictureSize size, int top) {
-    const Inks inks = inks_for(background);
+  Image paint(const Scene& scene, PictureSize size, int top) {
+    const Inks inks = inks_for(scene.background);
     Canvas canvas(width(), height());
-    veil(canvas, background, top, size);
+    veil(canvas, scene, top, size);
     double y = points(kPad) + font_.cap_height();
     canvas.text(font_, title_, points(kPad), y, Align::left, inks.text);
     y += points(0.4 * kLine);
+    for (const Swatch& kind : legend_.kinds) y = swatch(canvas, kind.color, kind.text, y, inks);
+    if (!legend_.kinds.empty()) return canvas.image();
     if (legend_.shows_above) y = swatch(canvas, kAboveRange, "above", y, inks);
     y = bar(canvas, y + points(0.4 * kLine), inks);
     if (legend_.shows_below) y = swatch(canvas, kBelowRange, "below", y, inks);
@@ -84,7 +89,16 @@ class LegendLayout {
     return tick.position == 1 ? legend_.high_note : std::string();
   }
 
+  void measure_kinds() {
+    double labels = 0;
+    for (const Swatch& kind : legend_.kinds) labels = std::max(labels, font_.width(kind.text));
+    width_ = std::max(font_.width(title_), points(kBarWidth + 2 * kTickLength) + labels) + points(2 * kPad);
+    height_ =
+        points(2 * kPad + (0.4 + static_cast<double>(legend_.kinds.size())) * kLine) + font_.cap_height();
+  }
+
   void measure() {
+    if (!legend_.kinds.empty()) return measure_kinds();
     double labels = 0;
     for (const Tick& tick : ticks_) {
       const std::string note = note_at(tick);
@@ -150,10 +164,44 @@ Overlay make_caption(const Scene& scene, PictureSize size, double scale) {
   const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
   const int top = size.height - edge - height;
   Canvas canvas(std::min(width, size.width), height);
-  veil(canvas, scene.background, top, size);
+  veil(canvas, scene, top, size);
   canvas.text(font, scene.caption, pad, 0.5 * (height + font.cap_height()), Align::left,
               inks_for(scene.background).text);
   return {canvas.image(), edge, top};
+}
+
+/// Lines at the upper left; a tab begins the second column, whose numbers end at one edge.
+Overlay make_notes(const Scene& scene, PictureSize size, double scale) {
+  Font font(kTextSize * scale);
+  const double pad = 0.5 * kPad * scale;
+  const double gap = 2 * kPad * scale;
+  const auto halves = [](const std::string& line) {
+    const std::size_t tab = std::min(line.find('\t'), line.size());
+    return std::pair{line.substr(0, tab), tab == line.size() ? std::string() : line.substr(tab + 1)};
+  };
+  double whole = 0, left = 0, right = 0;
+  for (const std::string& line : scene.notes) {
+    const auto [name, number] = halves(line);
+    if (number.empty())
+      whole = std::max(whole, font.width(name));
+    else
+      left = std::max(left, font.width(name)), right = std::max(right, font.width(number));
+  }
+  const double inner = std::max(whole, right > 0 ? left + gap + right : 0.0);
+  const int width = static_cast<int>(std::ceil(inner + 2 * pad));
+  const int height = static_cast<int>(std::ceil(scale * kLine * static_cast<double>(scene.notes.size())));
+  const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
+  Canvas canvas(std::clamp(width, 1, size.width), std::clamp(height, 1, size.height));
+  veil(canvas, scene, edge, size);
+  const Inks inks = inks_for(scene.background);
+  double y = 0.5 * (kLine * scale + font.cap_height());
+  for (const std::string& line : scene.notes) {
+    const auto [name, number] = halves(line);
+    canvas.text(font, name, pad, y, Align::left, number.empty() ? inks.text : inks.dim);
+    canvas.text(font, number, pad + inner, y, Align::right, inks.text);
+    y += kLine * scale;
+  }
+  return {canvas.image(), edge, edge};
 }
 
 }  // namespace
@@ -169,9 +217,10 @@ std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
     LegendLayout layout(*scene.legend, size, scale);
     const int edge = static_cast<int>(std::lround((kEdge - kPad) * scale));
     const int top = (size.height - layout.height()) / 2;
-    overlays.push_back({layout.paint(scene.background, size, top), size.width - edge - layout.width(), top});
+    overlays.push_back({layout.paint(scene, size, top), size.width - edge - layout.width(), top});
   }
   if (!scene.caption.empty()) overlays.push_back(make_caption(scene, size, scale));
+  if (!scene.notes.empty()) overlays.push_back(make_notes(scene, size, scale));
   return overlays;
 }
 

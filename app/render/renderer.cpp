@@ -20,7 +20,9 @@ namespace {
 struct OverlayKey {
   std::optional<Legend> legend;
   std::string caption;
+  std::vector<std::string> notes;
   Background background;
+  bool transparent = false;
   double pixels_per_point = 0;
   PictureSize size{0, 0};
 
@@ -73,6 +75,7 @@ struct Programs {
   ShaderProgram faces_and_lines;
   ShaderProgram pick;
   ShaderProgram marker;
+  ShaderProgram arrow;
   ShaderProgram overlay;
 
   Programs(ShaderReader read, const std::filesystem::path& folder)
@@ -81,6 +84,7 @@ struct Programs {
         faces_and_lines(read(folder, "mesh.vert"), defining(read(folder, "mesh.frag"), "LINES")),
         pick(read(folder, "mesh.vert"), read(folder, "pick.frag")),
         marker(read(folder, "marker.vert"), read(folder, "marker.frag")),
+        arrow(read(folder, "arrow.vert"), read(folder, "arrow.frag")),
         overlay(read(folder, "overlay.vert"), read(folder, "overlay.frag")) {}
 };
 
@@ -115,6 +119,7 @@ struct Renderer::Impl {
   void draw_background(const Background& background) const;
   void draw_meshes(const Scene& scene, const Camera& camera, PictureSize size, double points) const;
   void draw_markers(const Scene& scene, const Camera& camera, PictureSize size, double points);
+  void draw_arrows(const Arrows& wanted, const Camera& camera, PictureSize size, double points);
   void draw_overlays(PictureSize size) const;
   void require_size(PictureSize size) const;
   [[nodiscard]] Bounds scene_bounds() const;
@@ -125,6 +130,7 @@ struct Renderer::Impl {
   Frame frame;
   PickFrame pick_frame;
   TextureBuffer markers{GL_RGBA32F};
+  TextureBuffer arrows{GL_RGBA32F};
   std::vector<MeshBuffers> meshes;
   OverlayKey overlay_key;
   std::vector<OverlayTexture> overlays;
@@ -179,11 +185,14 @@ void Renderer::Impl::draw_meshes(const Scene& scene, const Camera& camera, Pictu
     program.set("view_rotation", view_rotation(camera));
     program.set("view_projection", view_projection(camera, size, meshes[i].frame(), bounds));
     program.set("relief", mesh.face_values.empty() ? kPlainRelief : kColoredRelief);
+    program.set("faces_shown", mesh.faces_shown ? 1 : 0);
+    program.set("backs_marked", mesh.backs_marked ? 1 : 0);
     program.set("wire_shown", mesh.wire.shown ? 1 : 0);
     program.set("wire_color", wire);
     program.set("wire_half_width", half_pixels(mesh.wire.width));
     program.set("marks_shown", mesh.marked_edges.shown ? 1 : 0);
     program.set("marks_color", mesh.marked_edges.color);
+    program.set("crease_color", mesh.crease_color);
     program.set("marks_half_width", half_pixels(mesh.marked_edges.width));
     program.set("highlight_color", mesh.highlight_color);
     meshes[i].draw(program, mesh);
@@ -210,13 +219,37 @@ void Renderer::Impl::draw_markers(const Scene& scene, const Camera& camera, Pict
   program.set("view_projection", view_projection(camera, size, frame_of_markers, bounds));
   program.set("picture_size", glm::vec2(size.width, size.height));
   glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(scene.markers.size()));
   glDisable(GL_BLEND);
 }
 
+void Renderer::Impl::draw_arrows(const Arrows& wanted, const Camera& camera, PictureSize size,
+                                 double points) {
+  if (wanted.items.empty()) return;
+  const MeshFrame frame_of_arrows{camera.target, camera.extent};
+  std::vector<float> texels;
+  texels.reserve(8 * wanted.items.size());
+  for (const Arrow& arrow : wanted.items)
+    for (const Vec3& end : {arrow.from, arrow.to}) {
+      const Vec3 local = (end - frame_of_arrows.origin) / frame_of_arrows.scale;
+      for (int k = 0; k < 3; ++k) texels.push_back(static_cast<float>(local[k]));
+      texels.push_back(1);
+    }
+  arrows.upload(texels.data(), texels.size() * sizeof(float));
+  const ShaderProgram& program = programs.arrow;
+  program.use();
+  arrows.bind(program, "arrows", 0);
+  program.set("view_projection", view_projection(camera, size, frame_of_arrows, scene_bounds()));
+  program.set("picture_size", glm::vec2(size.width, size.height));
+  program.set("half_width", static_cast<float>(std::max(0.5, 0.5 * wanted.width * points)));
+  program.set("color", wanted.color);
+  glDrawArraysInstanced(GL_TRIANGLES, 0, 9, static_cast<GLsizei>(wanted.items.size()));
+}
+
 void Renderer::Impl::update_overlays(const Scene& scene, PictureSize size) {
-  const OverlayKey key{scene.legend, scene.caption, scene.background, scene.pixels_per_point, size};
+  const OverlayKey key{scene.legend,      scene.caption,          scene.notes, scene.background,
+                       scene.transparent, scene.pixels_per_point, size};
   if (key == overlay_key) return;
   overlays.clear();
   for (const Overlay& overlay : make_overlays(scene, size)) {
@@ -240,7 +273,7 @@ void Renderer::Impl::draw_overlays(PictureSize size) const {
   program.set("bitmap", 0);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glActiveTexture(GL_TEXTURE0);
   for (const OverlayTexture& overlay : overlays) {
     const int bottom = size.height - overlay.top - overlay.size.height;
@@ -275,9 +308,15 @@ void Renderer::draw(const Scene& scene, const Camera& camera, PictureSize size) 
   impl_->frame.bind_samples();
   const GLfloat furthest = 1;
   glClearBufferfv(GL_DEPTH, 0, &furthest);
-  impl_->draw_background(scene.background);
+  if (scene.transparent) {
+    const GLfloat nothing[] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, nothing);
+  } else {
+    impl_->draw_background(scene.background);
+  }
   glEnable(GL_DEPTH_TEST);
   impl_->draw_meshes(scene, camera, size, points);
+  impl_->draw_arrows(scene.arrows, camera, size, points);
   impl_->draw_markers(scene, camera, size, points);
   impl_->frame.resolve();
   impl_->draw_overlays(size);

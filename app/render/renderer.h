@@ -40,7 +40,7 @@ class Renderer {
   /// it): good until the next draw.
   [[nodiscard]] unsigned color_texture() const;
   [[nodiscard]] PictureSize size() const;
-  /// The last picture.
+  /// The last picture. That of a transparent scene has its colours multiplied by alpha (see unmultiply).
   [[nodiscard]] Image read_back() const;
 
   /// The front-most triangle under pixel (x, y), y downwards, of the scene as it would be drawn.

@@ -42,6 +42,8 @@ struct EdgeStyle {
 
 /// Bits per triangle for `SceneMesh::edge_marks`: bit k marks the edge opposite corner k.
 inline constexpr std::uint8_t kMarkedEdge[3] = {1, 2, 4};
+/// A second kind of mark, drawn over the first in `SceneMesh::crease_color`.
+inline constexpr std::uint8_t kCreaseEdge[3] = {8, 16, 32};
 
 /// One mesh as it is to be drawn. Everything in spans belongs to the caller and must live through the draw.
 struct SceneMesh {
@@ -59,8 +61,12 @@ struct SceneMesh {
   Coloring coloring;
   Color plain_color{176, 184, 196};
   Shading shading = Shading::flat;
+  bool faces_shown =
+      true;  ///< else edges alone are seen, with nothing between them; faces still hide what is behind
+  bool backs_marked = true;  ///< the backs of faces are wine-red
   Wire wire;
   EdgeStyle marked_edges;
+  Color crease_color{255, 122, 61};
   /// Triangles drawn in `highlight_color`, for a selection.
   std::vector<Index> highlighted_faces;
   Color highlight_color{255, 122, 61};
@@ -73,13 +79,28 @@ struct Marker {
   double diameter = 9;  ///< in points
 };
 
+/// A straight arrow in space, of one width in pixels. Shorter than its own head it is drawn as a head alone.
+struct Arrow {
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+};
+struct Arrows {
+  std::vector<Arrow> items;
+  Color color{214, 40, 57};
+  double width = 1.4;  ///< of the shaft, in points
+};
+
 /// All that a picture shows but the camera. Plain data, made anew for each draw at no cost.
 struct Scene {
   std::vector<SceneMesh> meshes;
   std::vector<Marker> markers;
+  Arrows arrows;
   Background background = kDarkBackground;
+  /// Nothing behind the mesh; `background` still decides whether text is dark or light.
+  bool transparent = false;
   std::optional<Legend> legend;
-  std::string caption;  ///< one line at the lower left, UTF-8; empty: none
+  std::string caption;             ///< one line at the lower left, UTF-8; empty: none
+  std::vector<std::string> notes;  ///< lines at the upper left, UTF-8; a tab begins the second column
   /// Pixels per point, the unit of line widths and text; 0: the picture's shorter side / 720.
   double pixels_per_point = 0;
 };

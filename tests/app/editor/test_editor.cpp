@@ -9,7 +9,7 @@
 #include "editor/screenshot.h"
 #include "mesh/error.h"
 #include "render/offscreen.h"
-#include "support/image_compare.h"
+#include "support/golden.h"
 
 namespace isorelax::editor {
 namespace {
@@ -131,10 +131,7 @@ TEST_F(EditorTest, StatesLookAsAccepted) {
   keep("welcome");
   EXPECT_TRUE(test::matches_baseline(editor.picture(), "editor_welcome"));
   open(folder.make_square());
-  const test::ImageLimits limits;
-  EXPECT_FALSE(
-      test::compare_images(editor.picture(), test::read_baseline("editor_after_run"), limits).within(limits))
-      << "a run must be seen";
+  EXPECT_FALSE(test::passes_for_baseline(editor.picture(), "editor_after_run")) << "a run must be seen";
   editor.session().smoothing.iterations = 30;
   editor.session().smoothing.tolerance = 0;
   click("run");

@@ -5,8 +5,7 @@
 
 #include "mesh/error.h"
 #include "render/image.h"
-#include "render/picture.h"
-#include "support/image_compare.h"
+#include "render/picture_size.h"
 
 namespace isorelax::render {
 namespace {
@@ -47,31 +46,6 @@ TEST(Png, unreadable_and_unwritable_files_are_named) {
   std::ofstream(path) << "this is no picture";
   EXPECT_THROW(read_png(path), InputError);
   fs::remove(path);
-}
-
-TEST(CompareImages, limits_bite_each_on_its_own) {
-  const Image white = [] {
-    Image image(64, 64);
-    std::ranges::fill(image.pixels, std::uint8_t{255});
-    return image;
-  }();
-  const test::ImageLimits limits{.channel_tolerance = 4, .share_beyond = 0.001, .worst_tile_mean = 1};
-  EXPECT_TRUE(compare_images(white, white, limits).within(limits));
-
-  Image specks = white;  // few tiles, too many pixels
-  for (int i = 0; i < 8; ++i) specks.at(8 * i, 8 * i)[1] = 240;
-  EXPECT_GT(compare_images(specks, white, limits).share_beyond, limits.share_beyond);
-  EXPECT_LT(compare_images(specks, white, limits).worst_tile_mean, limits.worst_tile_mean);
-  EXPECT_FALSE(compare_images(specks, white, limits).within(limits));
-
-  Image veil = white;  // nothing beyond the tolerance, but a whole tile
-  for (int y = 16; y < 32; ++y)
-    for (int x = 16; x < 32; ++x)
-      for (std::size_t k = 0; k < 3; ++k) veil.at(x, y)[k] = 251;
-  EXPECT_EQ(compare_images(veil, white, limits).share_beyond, 0);
-  EXPECT_FALSE(compare_images(veil, white, limits).within(limits));
-
-  EXPECT_FALSE(compare_images(Image(64, 63), Image(64, 64), limits).within(limits));
 }
 
 TEST(PictureOptions, sizes_and_ranges_are_read_and_nonsense_is_refused) {

@@ -5,7 +5,7 @@
 
 #include "app/render/render_fixtures.h"
 #include "mesh/error.h"
-#include "render/picture.h"
+#include "render/offscreen.h"
 #include "render/renderer.h"
 
 namespace isorelax::render {
@@ -161,22 +161,6 @@ TEST_F(RendererTest, shaders_reload_from_the_source_tree_and_a_missing_folder_ch
   EXPECT_EQ(draw(scene, camera), built_in);
   EXPECT_THROW(renderer_.reload_shaders("/nowhere"), Error);
   EXPECT_EQ(draw(scene, camera), built_in);
-}
-
-TEST(Offscreen, osmesa_and_egl_give_the_same_bytes_as_often_as_one_draws) {
-  const TriangleMesh mesh = torus(40, 20);
-  const std::vector<double> values = min_angles(mesh);
-  PictureOptions options;
-  options.size = {320, 240};
-  options.wire = true;
-  for (const Shading shading : {Shading::flat, Shading::smooth}) {
-    options.shading = shading;
-    options.context = ContextKind::osmesa;
-    const Image first = render_picture(mesh, FaceColors{Quantity::min_angle, values}, options);
-    EXPECT_EQ(render_picture(mesh, FaceColors{Quantity::min_angle, values}, options), first);
-    options.context = ContextKind::egl;
-    EXPECT_EQ(render_picture(mesh, FaceColors{Quantity::min_angle, values}, options), first);
-  }
 }
 
 TEST(Offscreen, two_contexts_take_turns) {

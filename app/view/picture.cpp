@@ -1,0 +1,215 @@
+#include "view/picture.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "mesh/error.h"
+#include "mesh/topology.h"
+#include "render/overlay.h"
+#include "view/measures.h"
+#include "view/panels.h"
+
+namespace isorelax::view {
+namespace {
+
+/// A mesh with what the picture needs to know of it.
+struct Prepared {
+  std::vector<double> values;
+  std::vector<std::uint8_t> boundary;
+  std::optional<QualityReport> report;
+};
+
+bool has_values(const View& view) {
+  return view.color != ColorBy::none && view.color != ColorBy::classes;
+}
+
+void require_sense(const View& view, const Exhibits& exhibits) {
+  if (exhibits.meshes.empty()) throw UsageError("there is no mesh to show");
+  const bool needs_start = view.difference || view.arrows;
+  if (needs_start && exhibits.against == nullptr)
+    throw UsageError("differences and arrows need a mesh to start from (--against)");
+  if ((view.difference || view.only_worse_than) && !has_values(view))
+    throw UsageError(
+        "differences and the filter of worse triangles need colours by angle, max-angle, area or energy");
+  if (!needs_start) return;
+  for (const TriangleMesh* mesh : exhibits.meshes)
+    if (mesh->triangles != exhibits.against->triangles ||
+        mesh->positions.size() != exhibits.against->positions.size())
+      throw MeshError("a mesh has other vertices or triangles than the one it is shown against");
+}
+
+std::vector<double> values_of(const View& view, const TriangleMesh& mesh, const TriangleMesh* against) {
+  if (!has_values(view) || mesh.triangles.empty()) return {};
+  std::vector<double> values = measure(view.color, view.energy, mesh.positions, mesh.triangles);
+  if (!view.difference) return values;
+  return change(values, measure(view.color, view.energy, against->positions, against->triangles));
+}
+
+std::vector<Prepared> prepare(const View& view, const Exhibits& exhibits) {
+  require_sense(view, exhibits);
+  std::vector<Prepared> all;
+  for (const TriangleMesh* mesh : exhibits.meshes) {
+    Prepared& made = all.emplace_back();
+    made.values = values_of(view, *mesh, exhibits.against);
+    if (mesh->triangles.empty()) continue;
+    if (view.boundary)
+      made.boundary = render::mark_boundary_edges(Topology(mesh->triangles, mesh->vertex_count()));
+    if (view.numbers) made.report = measure_quality(*mesh);
+  }
+  return all;
+}
+
+std::vector<double> all_values(const std::vector<Prepared>& prepared) {
+  std::vector<double> all;
+  for (const Prepared& one : prepared) all.insert(all.end(), one.values.begin(), one.values.end());
+  return all;
+}
+
+double points_of(const View& view) {
+  return view.points > 0 ? view.points : std::min(view.size.width, view.size.height) / 720.0;
+}
+
+/// All of the picture that is no mesh.
+render::Scene legend_scene(const View& view, const render::Coloring& coloring,
+                           std::span<const double> values) {
+  render::Scene scene;
+  scene.background = view.background;
+  scene.transparent = view.transparent;
+  scene.pixels_per_point = points_of(view);
+  if (view.legend && view.color != ColorBy::none) scene.legend = legend_of(view, coloring, values);
+  return scene;
+}
+
+Panels panels_of(const View& view, const render::Scene& legend, std::size_t count) {
+  const int width = static_cast<int>(std::ceil(render::legend_share(legend, view.size) * view.size.height));
+  return arrange(view.size, count, width);
+}
+
+View resolved(const View& view, const Exhibits& exhibits, const std::vector<Prepared>& prepared,
+              Arrangement arrangement) {
+  View fixed = view;
+  const std::vector<double> values = all_values(prepared);
+  const render::Coloring coloring = coloring_of(view, values);
+  if (has_values(view)) fixed.range = {RangeRule::ends, coloring.range};
+  const auto* text = std::get_if<std::string>(&view.camera);
+  if (text == nullptr) return fixed;
+  const render::Scene legend = legend_scene(view, coloring, values);
+  const std::size_t count = arrangement == Arrangement::side_by_side ? exhibits.meshes.size() : 1;
+  const Panels panels = panels_of(view, legend, count);
+  render::FitOptions fitting;
+  if (count == 1) fitting.right = render::legend_share(legend, view.size);
+  std::vector<Vec3> positions;
+  for (const TriangleMesh* mesh : exhibits.meshes)
+    positions.insert(positions.end(), mesh->positions.begin(), mesh->positions.end());
+  fixed.camera = render::parse_camera(*text, positions, panels.cell, fitting);
+  return fixed;
+}
+
+/// The label of mesh i: as given, or its file's name where there are several.
+std::string label_of(const View& view, std::size_t i, std::size_t count) {
+  if (i < view.labels.size()) return view.labels[i];
+  if (count < 2 || i >= view.meshes.size()) return {};
+  return std::filesystem::path(view.meshes[i]).filename().string();
+}
+
+Subject subject_of(const View& view, const Exhibits& exhibits, const Prepared& prepared, std::size_t i) {
+  Subject subject;
+  subject.positions = exhibits.meshes[i]->positions;
+  subject.triangles = exhibits.meshes[i]->triangles;
+  subject.values = prepared.values;
+  subject.boundary_marks = prepared.boundary;
+  if (exhibits.against != nullptr) subject.against = exhibits.against->positions;
+  if (prepared.report) subject.report = &*prepared.report;
+  subject.label = label_of(view, i, exhibits.meshes.size());
+  return subject;
+}
+
+}  // namespace
+
+View resolve(const View& view, const Exhibits& exhibits, Arrangement arrangement) {
+  return resolved(view, exhibits, prepare(view, exhibits), arrangement);
+}
+
+Studio::Studio(render::ContextKind context)
+    : context_(render::OffscreenContext::create(context)), renderer_(context_->loader()) {}
+
+Studio::~Studio() {
+  context_->make_current();  // the renderer's objects are of this one
+}
+
+render::Image Studio::draw_scene(const render::Scene& scene, const render::Camera& camera,
+                                 render::PictureSize size, int supersampling) {
+  if (supersampling == 1) {
+    renderer_.draw(scene, camera, size);
+    render::Image image = renderer_.read_back();
+    if (scene.transparent) unmultiply(image);
+    return image;
+  }
+  // Text stays as sharp as it is: only what is behind it is drawn larger.
+  render::Scene behind = scene;
+  behind.legend.reset();
+  behind.caption.clear();
+  behind.notes.clear();
+  behind.pixels_per_point *= supersampling;
+  renderer_.draw(behind, camera, {size.width * supersampling, size.height * supersampling});
+  render::Image large = renderer_.read_back();
+  if (scene.transparent) unmultiply(large);
+  render::Image image = shrunk(large, supersampling);
+  overlay(scene, image);
+  return image;
+}
+
+Picture Studio::draw(const View& view, const Exhibits& exhibits) {
+  context_->make_current();
+  const std::vector<Prepared> prepared = prepare(view, exhibits);
+  Picture picture{{}, resolved(view, exhibits, prepared, Arrangement::side_by_side)};
+  const View& fixed = picture.view;
+  const std::vector<double> values = all_values(prepared);
+  const render::Coloring coloring = coloring_of(fixed, values);
+  const render::Scene legend = legend_scene(fixed, coloring, values);
+  const std::size_t count = exhibits.meshes.size();
+  const Panels panels = panels_of(fixed, legend, count);
+  const auto& camera = std::get<render::Camera>(fixed.camera);
+  // Behind everything: what cells and strip leave free.
+  if (count > 1) picture.image = draw_scene(legend, camera, fixed.size, 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    Depiction depiction = depict(fixed, coloring, subject_of(fixed, exhibits, prepared[i], i));
+    depiction.scene.pixels_per_point = points_of(fixed);
+    if (count == 1) depiction.scene.legend = legend.legend;
+    render::Image cell = draw_scene(depiction.scene, camera, panels.cell, fixed.supersampling);
+    if (count == 1)
+      picture.image = std::move(cell);
+    else
+      place(cell, static_cast<int>(i) % panels.columns * panels.cell.width,
+            static_cast<int>(i) / panels.columns * panels.cell.height, picture.image);
+  }
+  return picture;
+}
+
+render::PictureTexts texts_of(const View& view) {
+  return {{"Software", "Isorelax"}, {kViewKeyword, to_json(view)}};
+}
+
+void write_picture(const std::filesystem::path& path, const Picture& picture) {
+  write_png(path, picture.image, texts_of(picture.view));
+}
+
+View read_view(const std::filesystem::path& path) {
+  if (path.extension() == ".png") {
+    const render::PictureTexts texts = render::read_png_texts(path);
+    const auto found = texts.find(kViewKeyword);
+    if (found == texts.end())
+      throw InputError(path.string(), "", "carries no view: it was not drawn by isorelax");
+    return parse_view(found->second, path.string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw InputError(path.string(), "", "cannot be read");
+  return parse_view(text, path.string());
+}
+
+}  // namespace isorelax::view
