@@ -1,13 +1,18 @@
 #include "editor/editor.h"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "editor/embedded.h"
+#include "editor/session_view.h"
 #include "mesh/error.h"
 #include "render/embedded.h"
 #include "render/overlay.h"
+#include "view/picture.h"
 
 namespace isorelax::editor {
 namespace {
@@ -38,7 +43,7 @@ render::Camera between(const render::Camera& a, const render::Camera& b, double 
 }  // namespace
 
 Editor::Editor(render::GlLoader loader, Motion motion)
-    : interface_(font_files()), renderer_(loader), painter_(loader), motion_(motion) {}
+    : interface_(font_files()), current_(loader), before_(loader), painter_(loader), motion_(motion) {}
 
 void Editor::frame(const FrameOptions& options) {
   const auto start = Clock::now();
@@ -55,11 +60,12 @@ void Editor::frame(const FrameOptions& options) {
   follow_document();
   move_camera(options.time);
   const auto before_mesh = Clock::now();
-  draw_mesh();
+  draw_pictures();
   drawing += seconds_since(before_mesh);
 
   ui::ViewportImage image;
-  if (has_picture_) image.texture = texture_id(renderer_.color_texture());
+  if (current_.drawn) image.texture = texture_id(current_.renderer.color_texture());
+  if (before_.drawn) image.before = texture_id(before_.renderer.color_texture());
   carry_out(interface_.frame(
       session_,
       {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
@@ -75,13 +81,16 @@ void Editor::follow_document() {
   const bool same_file = shown_document_ && shown_document_->path == session_.document->path;
   shown_document_ = session_.document;
   if (same_file) return;
+  base_.selected.reset();
   camera_ = render::default_camera(session_.document->mesh().positions, viewport_, fit_options());
   flight_.reset();
 }
 
 // Keeps the mesh clear of the legend.
 render::FitOptions Editor::fit_options() {
-  return {.margin = 0.07, .right = render::legend_share(scene_.make(session_, scale_), viewport_)};
+  const Shown shown{session_.document, session_.current, session_.original};
+  ViewScene scene;
+  return {.margin = 0.07, .right = render::legend_share(scene.make(shown, present_view()), pane())};
 }
 
 void Editor::move_camera(double time) {
@@ -98,31 +107,91 @@ void Editor::fly_to(const render::Camera& to) {
     flight_ = Flight{camera_, to, time_};
 }
 
-void Editor::draw_mesh() {
+view::View Editor::present_view() const {
+  const ui::Comparison& comparison = interface_.state().comparison;
+  view::View view = view_of(session_, base_, camera_, pane(), scale_);
+  if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
+    return view;
+  view.difference = true;
+  view.against = session_.document->path.string();
+  if (session_.view.range_mode != model::RangeMode::typed) view.range = {};
+  return view;
+}
+
+bool Editor::shows_before() const {
+  const ui::CompareMode mode = interface_.state().comparison.mode;
+  return mode != ui::CompareMode::off && mode != ui::CompareMode::change;
+}
+
+// What one picture of the viewport has: half of it where two stand side by side.
+render::PictureSize Editor::pane() const {
+  if (interface_.state().comparison.mode != ui::CompareMode::side_by_side) return viewport_;
+  return {std::max(1, viewport_.width / 2), viewport_.height};
+}
+
+void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {
+  const bool lines_only =
+      &picture == &before_ && interface_.state().comparison.mode == ui::CompareMode::ghost;
+  PictureKey key{shown.state->geometry.get(), shown.state->energy.get(), shown.against.get(), view,
+                 lines_only};
+  if (picture.drawn && key == picture.key) return;
+  render::Scene scene = picture.scene.make(shown, view);
+  if (lines_only) {
+    scene.transparent = true;
+    scene.legend.reset();
+    scene.notes.clear();
+    scene.meshes[0].faces_shown = false;
+    scene.meshes[0].wire = {.shown = true, .color = {255, 122, 61}, .opacity = 0.85, .width = 1.3};
+  }
+  try {
+    picture.renderer.draw(scene, camera_, view.size);
+    picture.drawn = true;
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
+  picture.key = std::move(key);
+}
+
+void Editor::draw_pictures() {
+  ui::Comparison& comparison = interface_.state().comparison;
+  if (const std::string problem = partner_.take_over(comparison); !problem.empty())
+    say(model::MessageKind::error, problem);
   if (!session_.current) {
-    has_picture_ = false;
+    current_.drawn = before_.drawn = false;
     return;
   }
-  const PictureKey key{session_.current->geometry.get(),
-                       session_.current->energy.get(),
-                       session_.view,
-                       session_.color_range(),
-                       camera_,
-                       viewport_,
-                       session_.selected_triangle,
-                       scale_};
-  if (has_picture_ && key == drawn_) return;
-  try {
-    renderer_.draw(scene_.make(session_, scale_), camera_, viewport_);
-    has_picture_ = true;
-  } catch (const Error& error) {
-    model::execute(session_, model::Say{{model::MessageKind::error, error.what()}});
+  partner_.follow(session_, comparison);
+  Shown before = partner_.shown(session_, comparison);
+  const bool comparable =
+      before.state &&
+      before.document->mesh().triangles.size() == session_.document->mesh().triangles.size() &&
+      before.state->positions().size() == session_.current->positions().size();
+  // Arrows and a change from what has other triangles would mean nothing.
+  draw(current_, {session_.document, session_.current, comparable ? before.state : session_.original},
+       present_view());
+  if (!shows_before() || !before.state) {
+    before_.drawn = false;
+    return;
   }
-  drawn_ = key;
+  if (before.document == session_.document) before.against = session_.original;
+  view::View view = present_view();
+  view.arrows = false;
+  view.selected.reset();
+  draw(before_, before, view);
+}
+
+void Editor::say(model::MessageKind kind, const std::string& text) {
+  model::execute(session_, model::Say{{kind, text}});
 }
 
 void Editor::carry_out(const ui::Output& output) {
-  for (const model::Command& command : output.commands) model::execute(session_, command);
+  for (const model::Command& command : output.commands) {
+    model::execute(session_, command);
+    // A triangle that came with a pasted view stays marked until another is.
+    if (std::holds_alternative<model::SelectNextWorst>(command) ||
+        std::holds_alternative<model::ClearSelection>(command))
+      base_.selected.reset();
+  }
   for (const ui::Request& request : output.requests) carry_out_request(request);
   acted_ = !output.commands.empty() || !output.requests.empty();
 }
@@ -130,39 +199,80 @@ void Editor::carry_out(const ui::Output& output) {
 void Editor::carry_out_request(const ui::Request& request) {
   if (const auto* orbit = std::get_if<ui::OrbitView>(&request)) {
     flight_.reset();
-    camera_ = render::orbit(camera_, orbit->dx, orbit->dy, viewport_);
+    camera_ = render::orbit(camera_, orbit->dx, orbit->dy, pane());
   } else if (const auto* pan = std::get_if<ui::PanView>(&request)) {
     flight_.reset();
-    camera_ = render::pan(camera_, pan->dx, pan->dy, viewport_);
+    camera_ = render::pan(camera_, pan->dx, pan->dy, pane());
   } else if (const auto* zoom = std::get_if<ui::ZoomView>(&request)) {
     flight_.reset();
-    camera_ = render::zoom_to(camera_, zoom->factor, zoom->x, zoom->y, viewport_);
+    // Over the right one of two pictures the pointer is as far in as over the left one.
+    const auto width = static_cast<float>(pane().width);
+    const bool right =
+        interface_.state().comparison.mode == ui::CompareMode::side_by_side && zoom->x >= width;
+    camera_ = render::zoom_to(camera_, zoom->factor, right ? zoom->x - width : zoom->x, zoom->y, pane());
   } else if (std::holds_alternative<ui::FrameView>(request)) {
-    if (session_.current)
-      fly_to(render::fit(camera_, session_.current->positions(), viewport_, fit_options()));
+    if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), pane(), fit_options()));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));
   } else if (const auto* picture = std::get_if<ui::SavePicture>(&request)) {
     save_picture(picture->path);
+  } else if (std::holds_alternative<ui::CopyView>(request)) {
+    copy_view();
+  } else if (const auto* paste = std::get_if<ui::PasteView>(&request)) {
+    paste_view(paste->text);
+  } else if (std::holds_alternative<ui::RememberState>(request)) {
+    if (session_.current) partner_.remember(session_, interface_.state().comparison);
+  } else if (const auto* file = std::get_if<ui::CompareWithFile>(&request)) {
+    partner_.read(file->path);
   } else {
     quit_ = true;
   }
 }
 
+// The picture of the present state: `isorelax render --like` it gives the same bytes.
 void Editor::save_picture(const std::filesystem::path& path) {
   if (!session_.current) return;
   try {
-    renderer_.draw(scene_.make(session_, scale_), camera_, viewport_);
-    render::write_png(path, renderer_.read_back());
-    model::execute(session_, model::Say{{model::MessageKind::info, "Saved " + path.string()}});
+    const view::View view = present_view();
+    current_.drawn = false;
+    draw(current_, {session_.document, session_.current, session_.original}, view);
+    render::Image image = current_.renderer.read_back();
+    if (view.transparent) unmultiply(image);
+    view::write_picture(path, {image, view});
+    say(model::MessageKind::info, "Saved " + path.string());
   } catch (const Error& error) {
-    model::execute(session_, model::Say{{model::MessageKind::error, error.what()}});
+    say(model::MessageKind::error, error.what());
+  }
+}
+
+void Editor::copy_view() {
+  if (!session_.current) return;
+  ImGui::SetCurrentContext(&interface_.context());
+  ImGui::SetClipboardText(view::to_json(present_view()).c_str());
+  say(model::MessageKind::info, "Copied the view");
+}
+
+void Editor::paste_view(const std::string& text) {
+  if (!session_.current) return;
+  try {
+    view::View view = view::parse_view(text, "The clipboard");
+    if (const auto* spec = std::get_if<std::string>(&view.camera))
+      view.camera = render::parse_camera(*spec, session_.current->positions(), pane(), fit_options());
+    flight_.reset();
+    camera_ = std::get<render::Camera>(view.camera);
+    model::execute(session_, model::SetView{settings_of(view, session_.view)});
+    const bool other_size = view.size != pane();
+    const std::string size = std::to_string(view.size.width) + " x " + std::to_string(view.size.height);
+    base_ = std::move(view);
+    say(model::MessageKind::info, "Pasted the view" + (other_size ? ", of a picture of " + size : ""));
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
   }
 }
 
 bool Editor::is_restless() const {
-  return acted_ || flight_.has_value() || interface_.is_restless();
+  return acted_ || flight_.has_value() || partner_.is_reading() || interface_.is_restless();
 }
 
 }  // namespace isorelax::editor

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "editor/painter.h"
+#include "editor/partner.h"
 #include "editor/view_scene.h"
 #include "model/command.h"
 #include "render/renderer.h"
@@ -47,17 +48,22 @@ class Editor {
   [[nodiscard]] const Times& times() const { return times_; }
 
  private:
-  // What the mesh's picture depends on: equal keys, equal pictures.
+  // What a picture of a mesh depends on: equal keys, equal pictures.
   struct PictureKey {
     const model::Geometry* geometry = nullptr;
     const model::EnergyState* energy = nullptr;
-    model::ViewSettings view;
-    model::ValueRange range;
-    render::Camera camera;
-    render::PictureSize size;
-    std::optional<Index> selected;
-    float scale = 1;
+    const model::MeshState* against = nullptr;
+    view::View view;
+    bool lines_only = false;
     bool operator==(const PictureKey&) const = default;
+  };
+  /// A picture that is kept until something about it changes.
+  struct KeptPicture {
+    explicit KeptPicture(render::GlLoader loader) : renderer(loader) {}
+    render::Renderer renderer;
+    ViewScene scene;
+    PictureKey key;
+    bool drawn = false;
   };
   struct Flight {
     render::Camera from, to;
@@ -67,23 +73,30 @@ class Editor {
   void follow_document();
   [[nodiscard]] render::FitOptions fit_options();
   void move_camera(double time);
-  void draw_mesh();
+  [[nodiscard]] view::View present_view() const;
+  [[nodiscard]] bool shows_before() const;
+  [[nodiscard]] render::PictureSize pane() const;
+  void draw_pictures();
+  void draw(KeptPicture& picture, const Shown& shown, const view::View& view);
   void carry_out(const ui::Output& output);
   void carry_out_request(const ui::Request& request);
   void fly_to(const render::Camera& to);
   void save_picture(const std::filesystem::path& path);
+  void copy_view();
+  void paste_view(const std::string& text);
+  void say(model::MessageKind kind, const std::string& text);
 
   model::Session session_;
   ui::Interface interface_;
-  render::Renderer renderer_;
+  KeptPicture current_;
+  KeptPicture before_;
   Painter painter_;
-  ViewScene scene_;
+  Partner partner_;
   Motion motion_;
   render::Camera camera_;
+  view::View base_;  ///< pasted last: what the session has no setting for
   std::optional<Flight> flight_;
   model::DocumentPtr shown_document_;
-  PictureKey drawn_;
-  bool has_picture_ = false;
   render::PictureSize viewport_;
   float scale_ = 1;
   double time_ = 0;

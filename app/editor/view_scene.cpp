@@ -3,93 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include "render/quantity.h"
+#include "editor/session_view.h"
+#include "view/measures.h"
 
 namespace isorelax::editor {
-namespace {
-
-std::optional<render::Quantity> quantity_of(model::Coloring coloring) {
-  switch (coloring) {
-    case model::Coloring::none:
-      return std::nullopt;
-    case model::Coloring::min_angle:
-      return render::Quantity::min_angle;
-    case model::Coloring::max_angle:
-      return render::Quantity::max_angle;
-    case model::Coloring::relative_area:
-      return render::Quantity::area;
-    case model::Coloring::energy:
-      return render::Quantity::energy;
-  }
-  return std::nullopt;
-}
-
-render::Coloring coloring_of(const model::Session& session, render::Quantity quantity) {
-  const model::ViewSettings& view = session.view;
-  const model::ValueRange range = session.color_range();
-  // The quantity's own scale over everything seen so far: its rules need only the extremes.
-  const double ends[2] = {range.low, range.high};
-  render::Coloring coloring = render::default_coloring(quantity, ends);
-  const bool own_range = view.range_mode == model::RangeMode::run;
-  const bool angle = quantity == render::Quantity::min_angle || quantity == render::Quantity::max_angle;
-  if (view.range_mode == model::RangeMode::typed || (!own_range && angle))
-    coloring.range = {range.low, range.high};
-  if (coloring.range.low <= 0) coloring.scale = render::ValueScale::linear;
-  if (!view.color_map.empty()) {
-    coloring.map = render::parse_color_map(view.color_map);
-  }
-  if (view.reversed)
-    coloring.direction = coloring.direction == render::MapDirection::forward ? render::MapDirection::reversed
-                                                                             : render::MapDirection::forward;
-  return coloring;
-}
-
-}  // namespace
-
-render::Scene ViewScene::make(const model::Session& session, float pixels_per_point) {
-  const model::MeshState& state = *session.current;
-  const bool other_document = document_ != session.document;
+const render::Scene& ViewScene::make(const Shown& shown, const view::View& view) {
+  const auto& [document, state, against] = shown;
+  const bool other_document = document_ != document;
+  const bool other_colors = color_ != view.color || difference_ != view.difference || against_ != against ||
+                            energy_ != state->energy;
   if (other_document) triangles_ = render::next_revision();
-  if (geometry_ != state.geometry) positions_ = render::next_revision();
-  if (geometry_ != state.geometry || energy_ != state.energy || coloring_ != session.view.coloring ||
-      other_document)
-    values_ = render::next_revision();
-  document_ = session.document;
-  geometry_ = state.geometry;
-  energy_ = state.energy;
-  coloring_ = session.view.coloring;
+  if (geometry_ != state->geometry) positions_ = render::next_revision();
+  if (geometry_ != state->geometry || other_colors || other_document) values_ = render::next_revision();
+  document_ = document;
+  geometry_ = state->geometry;
+  against_ = against;
+  energy_ = state->energy;
+  color_ = view.color;
+  difference_ = view.difference;
 
-  render::Scene scene;
-  scene.pixels_per_point = pixels_per_point;
-  render::SceneMesh& mesh = scene.meshes.emplace_back();
-  mesh.positions = state.positions();
-  mesh.triangles = document_->mesh().triangles;
-  mesh.edge_marks = document_->boundary_marks;
-  mesh.face_values = state.values(coloring_);
-  mesh.positions_revision = positions_;
-  mesh.triangles_revision = triangles_;
-  mesh.values_revision = values_;
-  mesh.shading =
-      session.view.shading == model::Shading::flat ? render::Shading::flat : render::Shading::smooth;
-  mesh.wire.shown = session.view.wire;
-  mesh.marked_edges.color = {205, 211, 222};
-  mesh.marked_edges.width = 1.6;
-  if (const auto quantity = quantity_of(coloring_); quantity && !mesh.face_values.empty()) {
-    mesh.coloring = coloring_of(session, *quantity);
-    if (session.view.legend) scene.legend = render::make_legend(*quantity, mesh.coloring, mesh.face_values);
+  view::Subject subject;
+  subject.positions = state->positions();
+  subject.triangles = document_->mesh().triangles;
+  subject.values = state->values(coloring_of(color_));
+  subject.boundary_marks = document_->boundary_marks;
+  if (against) subject.against = against->positions();
+  subject.report = &state->quality();
+  subject.positions_revision = positions_;
+  subject.triangles_revision = triangles_;
+  subject.values_revision = values_;
+  if (difference_ && against) {
+    change_ = view::change(subject.values, against->values(coloring_of(color_)));
+    subject.values = change_;
   }
-  if (session.selected_triangle) {
-    const Index t = *session.selected_triangle;
-    mesh.highlighted_faces = {t};
-    const Triangle& corners = mesh.triangles[t];
-    render::Marker marker;
-    marker.position =
-        (mesh.positions[corners[0]] + mesh.positions[corners[1]] + mesh.positions[corners[2]]) / 3;
-    scene.markers.push_back(marker);
-  }
-  return scene;
+  const render::Coloring coloring = view::coloring_of(view, subject.values);
+  depiction_ = view::depict(view, coloring, subject);
+  const bool has_legend = view.color == view::ColorBy::classes || !subject.values.empty();
+  if (view.legend && has_legend) depiction_.scene.legend = view::legend_of(view, coloring, subject.values);
+  return depiction_.scene;
 }
 
 render::Camera look_at_triangle(const render::Camera& camera, const model::Session& session, Index triangle) {

@@ -79,6 +79,16 @@ void perform_view_action(const Ui& ui, Action action) {
     case Action::color_energy:
       set_coloring(ui, model::Coloring::energy);
       break;
+    case Action::compare:
+      ui.state.comparison.mode =
+          static_cast<CompareMode>((static_cast<int>(ui.state.comparison.mode) + 1) % 6);
+      break;
+    case Action::copy_view:
+      ui.request(CopyView{});
+      break;
+    case Action::paste_view:
+      if (const char* text = ImGui::GetClipboardText()) ui.request(PasteView{text});
+      break;
     case Action::hide_panels:
       ui.state.panels_hidden = !ui.state.panels_hidden;
       break;

@@ -81,6 +81,8 @@ std::string_view title(FilePurpose purpose) {
       return "Save the mesh";
     case FilePurpose::save_picture:
       return "Save a picture";
+    case FilePurpose::comparison:
+      return "Choose a mesh to compare with";
     case FilePurpose::reference:
       break;
   }
@@ -101,6 +103,9 @@ void deliver(const Ui& ui, const fs::path& path) {
       break;
     case FilePurpose::save_picture:
       ui.request(SavePicture{path});
+      break;
+    case FilePurpose::comparison:
+      ui.request(CompareWithFile{path});
       break;
     case FilePurpose::reference: {
       model::SmoothingSettings settings = ui.session.smoothing;

@@ -88,6 +88,7 @@ Output Interface::frame(const model::Session& session, const FrameOptions& optio
   ImGui::Render();
   // Dear ImGui settles hover, focus and sizes within two frames of an input.
   settle_frames_ = had_input ? 2 : std::max(0, settle_frames_ - 1);
+  if (state_.comparison.mode == CompareMode::blink) settle_frames_ = std::max(1, settle_frames_);
   // A tooltip waits for its time to come, which only frames let pass.
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (context.HoveredId != 0 && context.HoveredIdTimer < 2 * kTooltipDelay)

@@ -11,10 +11,19 @@ struct Layout {
 /// The layout for a display of this size; hidden panels are empty.
 [[nodiscard]] Layout make_layout(const UiState& state, ImVec2 display, float scale);
 
-/// A texture with the picture of the mesh, first row at the bottom; null: none yet.
+/// Textures with pictures of the mesh, first row at the bottom; null: none yet.
 struct ViewportImage {
   ImTextureID texture = nullptr;
+  ImTextureID before = nullptr;  ///< of what it is compared with
 };
+
+/// Moves the divider of a split with the pointer; whether the pointer has hold of it. Belongs behind the
+/// viewport's item.
+[[nodiscard]] bool drag_divider(const Ui& ui, const Rect& rect);
+/// Draws the pictures into the viewport as the comparison asks, and the divider of a split.
+void draw_pictures(const Ui& ui, const Rect& rect, const ViewportImage& image);
+/// The controls of the comparison, over the viewport.
+void draw_compare_bar(const Ui& ui, const Rect& rect);
 
 void draw_top_bar(const Ui& ui, const Rect& rect);
 void draw_settings_panel(const Ui& ui, const Rect& rect);

@@ -32,6 +32,9 @@ enum class Action : std::uint8_t {
   hide_panels,
   help,
   copy_command_line,
+  copy_view,
+  paste_view,
+  compare,
 };
 
 struct Shortcut {

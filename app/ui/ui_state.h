@@ -44,8 +44,21 @@ struct FlyToSelection {};
 struct SavePicture {
   std::filesystem::path path;
 };
+/// Puts the view into the clipboard as text.
+struct CopyView {};
+/// Takes over a view from text.
+struct PasteView {
+  std::string text;
+};
+/// Keeps the present state to be compared with.
+struct RememberState {};
+/// Reads a mesh to be compared with.
+struct CompareWithFile {
+  std::filesystem::path path;
+};
 struct Quit {};
-using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, SavePicture, Quit>;
+using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, SavePicture, CopyView,
+                             PasteView, RememberState, CompareWithFile, Quit>;
 
 /// What one frame of the interface asks for, in order.
 struct Output {
@@ -54,7 +67,23 @@ struct Output {
 };
 
 /// What a file dialog chooses for.
-enum class FilePurpose : std::uint8_t { open_mesh, save_mesh, save_picture, reference };
+enum class FilePurpose : std::uint8_t { open_mesh, save_mesh, save_picture, reference, comparison };
+
+/// How the mesh is shown beside another state of it.
+enum class CompareMode : std::uint8_t { off, split, blink, side_by_side, ghost, change };
+/// What it is shown beside.
+enum class CompareWith : std::uint8_t { original, remembered, file };
+struct Comparison {
+  CompareMode mode = CompareMode::off;
+  CompareWith with = CompareWith::original;
+  float divider = 0.5F;       ///< of a split, share of the viewport's width
+  bool remembers = false;     ///< there is a remembered state
+  std::string remembered;     ///< what it is called
+  std::string file;           ///< name of the file that was read; empty: none
+  float blink_seconds = 0;    ///< since the last change
+  bool blink_before = false;  ///< what a blink shows now
+  bool dragged = false;       ///< the pointer has hold of the divider
+};
 
 /// A folder as it was listed, and where the user is in it.
 struct FileBrowser {
@@ -93,6 +122,7 @@ struct UiState {
   bool quit_after_save = false;
   std::uint64_t dismissed_message = 0;
   std::array<float, 2> typed_range{0, 1};
+  Comparison comparison;
 
   /// Where each named widget was drawn in the last frame.
   std::map<std::string, Rect, std::less<>> rects;

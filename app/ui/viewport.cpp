@@ -143,13 +143,13 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   begin_panel("viewport", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (ui.session.current) {
     const ImVec2 size{std::max(1.0F, rect.width()), std::max(1.0F, rect.height())};
-    if (image.texture != nullptr)
-      ImGui::GetWindowDrawList()->AddImage(image.texture, rect.low, rect.high, {0, 1}, {1, 0});
     ImGui::InvisibleButton("view", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
     if (ImGui::IsItemActivated()) ui.state.focused.clear();
-    navigate(ui, rect);
+    const bool divides = drag_divider(ui, rect);
+    if (!divides) navigate(ui, rect);
+    draw_pictures(ui, rect, image);
     draw_selection(ui, rect);
   } else if (ui.session.activity != model::Activity::loading) {
     draw_welcome(ui, rect);
@@ -158,6 +158,7 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   ImGui::End();
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
+  if (ui.session.current) draw_compare_bar(ui, rect);
   draw_notice(ui, rect);
 }
 

@@ -5,76 +5,15 @@
 #include <fstream>
 #include <memory>
 
-#include "app/temporary_mesh.h"
+#include "app/editor/editor_fixture.h"
 #include "editor/screenshot.h"
 #include "mesh/error.h"
-#include "render/offscreen.h"
 #include "support/golden.h"
 
 namespace isorelax::editor {
 namespace {
 
 using render::Image;
-
-constexpr render::PictureSize kSize{1280, 720};
-
-/// The whole editor without a display: driven by input events, looked at as pictures.
-class EditorTest : public ::testing::Test {
- protected:
-  void frames(int count = 4) {
-    for (int k = 0; k < count; ++k) editor.frame({.size = kSize, .scale = 1, .time = time += 0.02});
-  }
-  void settle() {
-    do {
-      frames(1);
-    } while (editor.is_restless() || editor.session().engine.busy());
-    frames(2);
-  }
-  void open(const std::filesystem::path& path) {
-    model::execute(editor.session(), model::OpenFile{path});
-    model::finish(editor.session());
-    settle();
-  }
-  void press(ui::Key key, ui::Modifiers modifiers = {}) {
-    editor.interface().input().push(ui::KeyChanged{key, true, modifiers});
-    editor.interface().input().push(ui::KeyChanged{key, false, {}});
-    settle();
-  }
-  void move_to(const std::string& name) {
-    const ImVec2 at = editor.interface().state().rects.at(name).center();
-    editor.interface().input().push(ui::PointerMoved{at.x, at.y});
-    settle();
-  }
-  void click(const std::string& name) {
-    move_to(name);
-    editor.interface().input().push(ui::ButtonChanged{0, true});
-    editor.interface().input().push(ui::ButtonChanged{0, false});
-    settle();
-  }
-  /// The part of the last picture inside a recorded rectangle.
-  [[nodiscard]] Image part(const std::string& name) const {
-    const ui::Rect rect = const_cast<Editor&>(editor).interface().state().rects.at(name);
-    const Image whole = editor.picture();
-    Image image(static_cast<int>(rect.width()), static_cast<int>(rect.height()));
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        std::ranges::copy(whole.at(x + static_cast<int>(rect.low.x), y + static_cast<int>(rect.low.y)),
-                          image.at(x, y).begin());
-    return image;
-  }
-  /// Leaves the picture where a person can look at it.
-  void keep(const std::string& name) const {
-    const std::filesystem::path pictures = std::filesystem::path(ISORELAX_BINARY_DIR) / "editor_pictures";
-    std::filesystem::create_directories(pictures);
-    render::write_png(pictures / (name + ".png"), editor.picture());
-  }
-
-  test::TemporaryFolder folder;
-  std::unique_ptr<render::OffscreenContext> context =
-      render::OffscreenContext::create(render::ContextKind::osmesa);
-  Editor editor{context->loader(), Motion::instant};
-  double time = 0;
-};
 
 TEST_F(EditorTest, AStepChangesTheMeshOnScreenAndTheNumbersBesideIt) {
   open(folder.make_square());
@@ -120,6 +59,7 @@ TEST_F(EditorTest, ReloadingKeepsTheCameraAndAnotherFileGetsItsOwn) {
 
 TEST_F(EditorTest, ThePictureIsSavedAsTheViewportShowsIt) {
   open(folder.make_square());
+  press(ui::Key::h);
   press(ui::Key::f12);
   click("browser-accept");
   const Image saved = render::read_png(folder / "square.png");

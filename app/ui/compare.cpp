@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+constexpr float kBlinkSeconds = 0.6F;
+
+/// A part of a picture from share a to share b of its width, where it would be if it filled the rectangle.
+void draw_part(ImTextureID texture, const Rect& rect, float a, float b) {
+  if (texture == nullptr || a >= b) return;
+  const float x0 = rect.low.x + a * rect.width();
+  const float x1 = rect.low.x + b * rect.width();
+  ImGui::GetWindowDrawList()->AddImage(texture, {x0, rect.low.y}, {x1, rect.high.y}, {a, 1}, {b, 0});
+}
+
+std::string name_of_before(const Comparison& comparison) {
+  switch (comparison.with) {
+    case CompareWith::original:
+      break;
+    case CompareWith::remembered:
+      return comparison.remembered;
+    case CompareWith::file:
+      return comparison.file;
+  }
+  return "Original";
+}
+
+void draw_name(const Ui& ui, const std::string& name, float x, float y, bool right_of_x) {
+  const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+  const ImVec2 pad{ui.px(8), ui.px(4)};
+  const float left = right_of_x ? x + ui.px(10) : x - ui.px(10) - size.x - 2 * pad.x;
+  const ImVec2 low{left, y - ui.px(12) - size.y - 2 * pad.y};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(low, {low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y}, IM_COL32(34, 37, 43, 225),
+                     ui.px(5));
+  draw.AddText({low.x + pad.x, low.y + pad.y}, color::kText, name.c_str());
+}
+
+void draw_divider(const Ui& ui, const Rect& rect, float x) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float middle = rect.center().y;
+  draw.AddRectFilled({x - ui.px(1), rect.low.y}, {x + ui.px(1), rect.high.y}, color::kAccent);
+  draw.AddRectFilled({x - ui.px(6), middle - ui.px(16)}, {x + ui.px(6), middle + ui.px(16)}, color::kAccent,
+                     ui.px(4));
+  mark_area(ui, "divider", {{x - ui.px(6), middle - ui.px(16)}, {x + ui.px(6), middle + ui.px(16)}});
+}
+
+void draw_blink(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+  Comparison& comparison = ui.state.comparison;
+  comparison.blink_seconds += ImGui::GetIO().DeltaTime;
+  if (comparison.blink_seconds > kBlinkSeconds) {
+    comparison.blink_seconds = 0;
+    comparison.blink_before = !comparison.blink_before;
+  }
+  draw_part(comparison.blink_before ? image.before : image.texture, rect, 0, 1);
+  draw_name(ui, comparison.blink_before ? name_of_before(comparison) : "Current", rect.low.x, rect.high.y,
+            true);
+}
+
+void choose_partner(const Ui& ui) {
+  Comparison& comparison = ui.state.comparison;
+  const std::string remembered = comparison.remembers ? comparison.remembered : "Remember this state";
+  const std::string file = comparison.file.empty() ? "Another file..." : comparison.file;
+  const std::array<std::string_view, 3> labels{"Original", remembered, file};
+  ImGui::SetNextItemWidth(ui.px(180));
+  const int choice = combo(ui, "compare-with", labels, static_cast<int>(comparison.with));
+  tooltip(ui, "What the mesh is compared with.");
+  ImGui::SameLine(0, ui.px(4));
+  if (button(ui, "remember", "Remember", {.look = ButtonLook::quiet})) {
+    ui.request(RememberState{});
+    comparison.with = CompareWith::remembered;
+  }
+  tooltip(ui, "Keep the present state to be compared with.");
+  ImGui::SameLine(0, ui.px(2));
+  if (button(ui, "compare-file", "File", {.icon = Icon::open, .look = ButtonLook::quiet}))
+    ask_for_file(ui, FilePurpose::comparison);
+  tooltip(ui, "Compare with a mesh in another file.");
+  if (choice == 0) comparison.with = CompareWith::original;
+  if (choice == 1) {
+    if (!comparison.remembers) ui.request(RememberState{});
+    comparison.with = CompareWith::remembered;
+  }
+  if (choice == 2) {
+    if (comparison.file.empty())
+      ask_for_file(ui, FilePurpose::comparison);
+    else
+      comparison.with = CompareWith::file;
+  }
+}
+
+}  // namespace
+
+bool drag_divider(const Ui& ui, const Rect& rect) {
+  Comparison& comparison = ui.state.comparison;
+  if (comparison.mode != CompareMode::split) return false;
+  const ImGuiIO& io = ImGui::GetIO();
+  const float x = rect.low.x + comparison.divider * rect.width();
+  const bool near = std::abs(io.MousePos.x - x) < ui.px(8);
+  const bool began_near = std::abs(io.MouseClickedPos[0].x - x) < ui.px(8);
+  const bool active = ImGui::IsItemActive() && io.MouseDown[0];
+  // Taken hold of where the press began; then it follows the pointer.
+  if (ImGui::IsItemActivated()) comparison.dragged = near || began_near;
+  if (!active) comparison.dragged = false;
+  if (comparison.dragged)
+    comparison.divider = std::clamp((io.MousePos.x - rect.low.x) / rect.width(), 0.0F, 1.0F);
+  const bool hold = comparison.dragged || (near && ImGui::IsItemHovered() && !active);
+  if (hold) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  return comparison.dragged;
+}
+
+void draw_pictures(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+  const Comparison& comparison = ui.state.comparison;
+  const bool pair = image.before != nullptr;
+  switch (pair ? comparison.mode : CompareMode::off) {
+    case CompareMode::off:
+    case CompareMode::change:
+      draw_part(image.texture, rect, 0, 1);
+      break;
+    case CompareMode::split: {
+      draw_part(image.before, rect, 0, comparison.divider);
+      draw_part(image.texture, rect, comparison.divider, 1);
+      const float x = rect.low.x + comparison.divider * rect.width();
+      draw_divider(ui, rect, x);
+      draw_name(ui, name_of_before(comparison), x, rect.high.y, false);
+      draw_name(ui, "Current", x, rect.high.y, true);
+      break;
+    }
+    case CompareMode::blink:
+      draw_blink(ui, rect, image);
+      break;
+    case CompareMode::side_by_side: {
+      const float middle = rect.low.x + std::floor(0.5F * rect.width());
+      draw_part(image.before, {rect.low, {middle, rect.high.y}}, 0, 1);
+      draw_part(image.texture, {{middle, rect.low.y}, rect.high}, 0, 1);
+      draw_name(ui, name_of_before(comparison), rect.low.x, rect.high.y, true);
+      draw_name(ui, "Current", middle, rect.high.y, true);
+      break;
+    }
+    case CompareMode::ghost:
+      draw_part(image.texture, rect, 0, 1);
+      draw_part(image.before, rect, 0, 1);
+      draw_name(ui, "Lines: " + name_of_before(comparison), rect.low.x, rect.high.y, true);
+      break;
+  }
+}
+
+void draw_compare_bar(const Ui& ui, const Rect& rect) {
+  constexpr std::array<std::string_view, 6> kModes{"Off", "Split", "Blink", "Side", "Ghost", "Change"};
+  Comparison& comparison = ui.state.comparison;
+  const bool on = comparison.mode != CompareMode::off;
+  const float width = ui.px(330);
+  if (rect.width() < width + ui.px(120) || ui.state.panels_hidden) return;
+  ImGui::SetNextWindowPos({rect.low.x + ui.px(14), rect.low.y + ui.px(10)});
+  ImGui::SetNextWindowSize({0, 0});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 200)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(6)});
+  ImGui::Begin("compare-bar", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::AlignTextToFramePadding();
+  text_in(ui.fonts.heading, color::kTextDim, "COMPARE");
+  ImGui::SameLine(0, ui.px(10));
+  const int choice = segmented(ui, "compare", kModes, static_cast<int>(comparison.mode), width);
+  tooltip(ui, "Before and after on one camera; Change colours by quality now minus then.",
+          keys_of(Action::compare));
+  if (choice >= 0) comparison.mode = static_cast<CompareMode>(choice);
+  if (on) choose_partner(ui);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,220 @@
+// Views that leave the editor and come back, and what is compared in it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "app/editor/editor_fixture.h"
+#include "io/mesh_file.h"
+#include "view/picture.h"
+
+namespace isorelax::editor {
+namespace {
+
+using render::Image;
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+class EditorViews : public EditorTest {
+ protected:
+  [[nodiscard]] std::string clipboard() {
+    ImGui::SetCurrentContext(&editor.interface().context());
+    return ImGui::GetClipboardText();
+  }
+  void set_clipboard(const std::string& text) {
+    ImGui::SetCurrentContext(&editor.interface().context());
+    ImGui::SetClipboardText(text.c_str());
+  }
+  void run(unsigned iterations) {
+    editor.session().smoothing.iterations = iterations;
+    editor.session().smoothing.tolerance = 0;
+    press(ui::Key::space);
+  }
+  /// The picture of the viewport as F12 saves it.
+  std::filesystem::path save_picture(const std::string& name) {
+    press(ui::Key::f12);
+    editor.interface().state().browser.name = name;
+    click("browser-accept");
+    return folder / name;
+  }
+  void compare(ui::CompareMode mode) {
+    editor.interface().state().comparison.mode = mode;
+    settle();
+  }
+  void settle() {
+    if (editor.interface().state().comparison.mode == ui::CompareMode::blink)
+      frames(4);  // it never rests
+    else
+      EditorTest::settle();
+  }
+};
+
+TEST_F(EditorViews, ACopiedViewPastedBackRestoresThePixels) {
+  open(folder.make_square());
+  run(5);
+  press(ui::Key::n);
+  move_to("viewport");
+  const Image before = part("viewport");
+  press(ui::Key::c, {.control = true});
+  const std::string text = clipboard();
+  EXPECT_EQ(view::parse_view(text, "text").meshes,
+            std::vector<std::string>{(folder / "square.off").string()});
+  press(ui::Key::digit3);
+  press(ui::Key::w);
+  press(ui::Key::s);
+  editor.interface().input().push(ui::WheelTurned{0, 3});
+  settle();
+  EXPECT_FALSE(part("viewport") == before);
+  set_clipboard(text);
+  press(ui::Key::v, {.control = true});
+  EXPECT_TRUE(part("viewport") == before);
+}
+
+TEST_F(EditorViews, APastedViewBringsItsMarkedTriangle) {
+  open(folder.make_square());
+  press(ui::Key::n);
+  press(ui::Key::h);
+  press(ui::Key::c, {.control = true});
+  const auto marked = view::parse_view(clipboard(), "text").selected;
+  ASSERT_TRUE(marked);
+  press(ui::Key::escape);
+  press(ui::Key::c, {.control = true});
+  const std::string without = clipboard();
+  EXPECT_FALSE(view::parse_view(without, "text").selected);
+  const Image plain = part("viewport");
+  view::View view = view::parse_view(without, "text");
+  view.selected = marked;
+  set_clipboard(view::to_json(view));
+  press(ui::Key::v, {.control = true});
+  EXPECT_FALSE(part("viewport") == plain);
+  press(ui::Key::c, {.control = true});
+  EXPECT_EQ(view::parse_view(clipboard(), "text").selected, marked);
+}
+
+TEST_F(EditorViews, TextThatIsNoViewIsRefusedWithAMessageAndChangesNothing) {
+  open(folder.make_square());
+  const render::Camera camera = editor.camera();
+  set_clipboard(R"({"version": 1, "zoom": 3})");
+  press(ui::Key::v, {.control = true});
+  EXPECT_EQ(editor.camera(), camera);
+  EXPECT_NE(editor.session().messages.back().text.find("key 'zoom': is unknown"), std::string::npos)
+      << editor.session().messages.back().text;
+}
+
+TEST_F(EditorViews, ASavedPictureIsTheOneThatRenderMakesOfItsViewByteForByte) {
+  const auto mesh = folder.make_square();
+  open(mesh);
+  view::Studio studio;
+  context->make_current();
+  for (const ui::Key key :
+       {ui::Key::digit1, ui::Key::digit2, ui::Key::digit3, ui::Key::digit4, ui::Key::digit5}) {
+    press(key);
+    const auto saved = save_picture("saved.png");
+    const TriangleMesh read = read_mesh(mesh).mesh;
+    const view::Picture again = studio.draw(view::read_view(saved), {{&read}});
+    view::write_picture(folder / "again.png", again);
+    context->make_current();
+    EXPECT_TRUE(render::read_png(saved) == again.image);
+    EXPECT_EQ(bytes_of(saved), bytes_of(folder / "again.png"));
+    std::filesystem::remove(saved);
+  }
+}
+
+TEST_F(EditorViews, WhatTheSessionHasNoSettingForComesWithAPastedView) {
+  open(folder.make_square());
+  set_clipboard(R"({"version": 1, "background": "white", "numbers": true, "only_worse_than": 20})");
+  press(ui::Key::v, {.control = true});
+  keep("pasted_view");
+  const Image picture = part("viewport");
+  EXPECT_GT(picture.at(picture.width - 3, picture.height - 3)[0], 250);
+  press(ui::Key::c, {.control = true});
+  const view::View copied = view::parse_view(clipboard(), "text");
+  EXPECT_TRUE(copied.numbers);
+  EXPECT_EQ(copied.only_worse_than, 20);
+}
+
+TEST_F(EditorViews, BeforeAndAfterAreComparedOnOneCamera) {
+  open(folder.make_square());
+  const Image original = part("viewport");
+  run(20);
+  const Image current = part("viewport");
+  const int middle = current.width / 2;
+  const int low = 200;  // below the controls
+  const auto same = [&](const Image& a, const Image& b, int x0, int x1) {
+    for (int y = low; y < a.height - 60; ++y)
+      for (int x = x0; x < x1; ++x)
+        if (!std::ranges::equal(a.at(x, y), b.at(x, y))) return false;
+    return true;
+  };
+  compare(ui::CompareMode::split);
+  keep("compare_split");
+  const Image split = part("viewport");
+  EXPECT_TRUE(same(split, original, 0, middle - 10));
+  EXPECT_TRUE(same(split, current, middle + 10, current.width));
+  // The divider follows the pointer.
+  const ui::Rect divider = editor.interface().state().rects.at("divider");
+  editor.interface().input().push(ui::PointerMoved{divider.center().x, divider.low.y - 60});
+  editor.interface().input().push(ui::ButtonChanged{0, true});
+  settle();
+  const render::Camera camera = editor.camera();
+  editor.interface().input().push(ui::PointerMoved{divider.center().x - 120, divider.low.y - 60});
+  settle();
+  editor.interface().input().push(ui::ButtonChanged{0, false});
+  settle();
+  EXPECT_EQ(editor.camera(), camera);
+  EXPECT_TRUE(same(part("viewport"), current, middle - 110, current.width));
+  EXPECT_TRUE(same(part("viewport"), original, 0, middle - 130));
+
+  compare(ui::CompareMode::blink);
+  bool seen[2] = {false, false};
+  for (int k = 0; k < 90; ++k) {
+    frames(1);
+    seen[0] = seen[0] || same(part("viewport"), original, 0, current.width);
+    seen[1] = seen[1] || same(part("viewport"), current, 0, current.width);
+  }
+  EXPECT_TRUE(seen[0] && seen[1]);
+
+  compare(ui::CompareMode::side_by_side);
+  keep("compare_side_by_side");
+  EXPECT_FALSE(same(part("viewport"), current, 0, middle));
+  compare(ui::CompareMode::ghost);
+  keep("compare_ghost");
+  EXPECT_FALSE(same(part("viewport"), current, 0, current.width));
+  compare(ui::CompareMode::change);
+  keep("compare_change");
+  const Image change = part("viewport");
+  EXPECT_FALSE(same(change, current, 0, current.width));
+  compare(ui::CompareMode::off);
+  EXPECT_TRUE(same(part("viewport"), current, 0, current.width));
+}
+
+TEST_F(EditorViews, ARememberedStateOrAnotherFileCanBeTheOther) {
+  open(folder.make_square());
+  run(3);
+  compare(ui::CompareMode::split);
+  const Image with_original = part("viewport");
+  click("remember");
+  EXPECT_EQ(editor.interface().state().comparison.remembered, "Iteration 3");
+  EXPECT_FALSE(part("viewport") == with_original);
+  run(10);
+  const Image with_third = part("viewport");
+  (void)folder.make_square(100, "other.off");
+  click("compare-file");
+  editor.interface().state().browser.name = "other.off";
+  click("browser-accept");
+  EXPECT_EQ(editor.interface().state().comparison.file, "other.off");
+  EXPECT_FALSE(part("viewport") == with_third);
+  keep("compare_file");
+  (void)folder.make_square(200, "third.off");
+  open(folder / "third.off");
+  EXPECT_FALSE(editor.interface().state().comparison.remembers) << "of another document";
+}
+
+}  // namespace
+}  // namespace isorelax::editor
