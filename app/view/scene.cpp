@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "mesh/topology.h"
-#include "surface/feature_edges.h"
+#include "surface/vertex_class.h"
 #include "view/measures.h"
 
 namespace isorelax::view {
@@ -51,11 +51,10 @@ void keep_worse(const View& view, Depiction& made) {
 /// Marks borders and creases on the edges, ridge vertices and corners with dots.
 void show_classes(const Subject& subject, Depiction& made) {
   const Topology topology(subject.triangles, static_cast<Index>(subject.positions.size()));
-  const FeatureOptions options;
-  const VertexClasses found = classify_vertices(subject.positions, subject.triangles, topology, options);
+  const VertexClasses found =
+      classify_vertices(subject.positions, subject.triangles, topology, FeatureOptions{});
   made.marks = render::mark_boundary_edges(topology);
-  for (const FeatureEdge& edge :
-       crease_edges(subject.positions, subject.triangles, topology, options, found)) {
+  for (const FeatureEdge& edge : found.creases) {
     for (const Corner corner : {edge.corner, topology.opposite(edge.corner)})
       if (corner != kNone) made.marks[corner / 3] |= render::kCreaseEdge[corner % 3];
   }

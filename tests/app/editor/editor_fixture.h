@@ -37,6 +37,12 @@ class EditorTest : public ::testing::Test {
     editor.interface().input().push(ui::KeyChanged{key, false, {}});
     settle();
   }
+  /// Into the field that has the focus, in place of what it holds.
+  void type(const std::string& text) {
+    press(ui::Key::a, {.control = true});
+    editor.interface().input().push(ui::TextTyped{text});
+    settle();
+  }
   void move_to(const std::string& name) {
     const ImVec2 at = editor.interface().state().rects.at(name).center();
     editor.interface().input().push(ui::PointerMoved{at.x, at.y});

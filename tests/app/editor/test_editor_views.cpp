@@ -39,7 +39,7 @@ class EditorViews : public EditorTest {
   /// The picture of the viewport as F12 saves it.
   std::filesystem::path save_picture(const std::string& name) {
     press(ui::Key::f12);
-    editor.interface().state().browser.name = name;
+    type(name);
     click("browser-accept");
     return folder / name;
   }
@@ -206,7 +206,7 @@ TEST_F(EditorViews, ARememberedStateOrAnotherFileCanBeTheOther) {
   const Image with_third = part("viewport");
   (void)folder.make_square(100, "other.off");
   click("compare-file");
-  editor.interface().state().browser.name = "other.off";
+  type("other.off");
   click("browser-accept");
   EXPECT_EQ(editor.interface().state().comparison.file, "other.off");
   EXPECT_FALSE(part("viewport") == with_third);
