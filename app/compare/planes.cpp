@@ -12,7 +12,8 @@ namespace {
 template <class Body>
 void for_rows(const Plane& plane, const Body& body) {
   const int rows = std::max(1, static_cast<int>(kBlockSize) / std::max(1, plane.width));
-  const auto blocks = static_cast<std::size_t>(plane.height / rows + (plane.height % rows == 0 ? 0 : 1));
+  const int count = plane.height / rows + (plane.height % rows == 0 ? 0 : 1);
+  const auto blocks = static_cast<std::size_t>(count);
   // One block of the scheduler for each block of rows.
   parallel_for_blocks(blocks * kBlockSize, 0, [&](std::size_t begin, std::size_t) {
     const int first = static_cast<int>(begin / kBlockSize) * rows;
@@ -36,7 +37,7 @@ void filter_row(const float* from, int width, const Kernel& kernel, std::vector<
 }  // namespace
 
 Kernel gaussian(double sigma, int radius) {
-  Kernel kernel(static_cast<std::size_t>(2 * radius + 1));
+  Kernel kernel(2 * static_cast<std::size_t>(radius) + 1);
   double sum = 0;
   const auto weight = [&](int x) { return std::exp(-0.5 * x * x / (sigma * sigma)); };
   for (int x = -radius; x <= radius; ++x) sum += weight(x);

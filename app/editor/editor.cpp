@@ -136,9 +136,10 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
                  lines_only};
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
+  // One legend serves both.
+  if (&picture == &before_ && (lines_only || view.size != viewport_)) scene.legend.reset();
   if (lines_only) {
     scene.transparent = true;
-    scene.legend.reset();
     scene.notes.clear();
     scene.meshes[0].faces_shown = false;
     scene.meshes[0].wire = {.shown = true, .color = {255, 122, 61}, .opacity = 0.85, .width = 1.3};

@@ -167,7 +167,7 @@ TEST(Font, has_greek_and_aligned_digits) {
 
 TEST(Overlay, the_legend_stays_inside_pictures_of_any_size) {
   Scene scene;
-  scene.legend = Legend{"Min angle", "°", {}, "worst", "", true, true, true};
+  scene.legend = Legend{"Min angle", "°", {}, "worst", "", true, true, true, {}};
   scene.legend->coloring.range = {0, 60};
   for (const PictureSize size : {PictureSize{320, 240}, PictureSize{400, 300}, PictureSize{4000, 3000},
                                  PictureSize{300, 1200}, PictureSize{1920, 400}}) {
