@@ -52,13 +52,30 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--exponent", spec.exponent,
                  "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 1)")
       ->type_name("P");
-  app.add_option("--reference", spec.reference,
-                 "Triangles to aim at: equilateral (of the mean area, default), equilateral:EDGE, initial, "
-                 "or a mesh FILE")
-      ->type_name("R");
-  app.add_option("--boundary", spec.boundary,
-                 "fixed (default), slide (along the border, corners stay) or free")
+  auto* reference =
+      app.add_option(
+             "--reference", spec.reference,
+             "Triangles to aim at: equilateral (of the mean area, default), equilateral:EDGE, initial, "
+             "or a mesh FILE")
+          ->type_name("R");
+  app.add_option(
+         "--size-field", spec.size_field,
+         "Equilateral triangles of varying size: curvature (smaller where the surface bends more), or a "
+         "FILE with a target edge length for each vertex; scaled so that they cover the mesh. Takes "
+         "--mu over 0")
+      ->type_name("FIELD")
+      ->excludes(reference);
+  app.add_option(
+         "--boundary", spec.boundary,
+         "fixed (default); slide: along the border as it was, corners stay; or free: in the tangent plane, "
+         "corners stay and the outline goes no farther than an edge length or --max-deviation")
       ->type_name("RULE");
+  app.add_option(
+         "--boundary-corner", spec.boundary_corner_deg,
+         "The border has a corner where it turns by more than this, in degrees (default 45), and where a "
+         "straight stretch of it ends")
+      ->type_name("DEGREES")
+      ->check(number_between(0, 180));
   app.add_option("--features", spec.features,
                  "Ridges and corners to keep: auto (default), none, or the ridge angle in degrees")
       ->type_name("F");
@@ -111,7 +128,13 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, const Tr
   options.boundary = parse_boundary(spec.boundary);
   options.features = parse_features(spec.features);
   options.surface = parse_surface(spec.surface);
+  options.features.boundary_turn_deg = spec.boundary_corner_deg;
   options.reference = parse_reference(console, spec.reference);
+  if (spec.size_field == "curvature") {
+    options.reference = CurvatureReference{options.features};
+  } else if (!spec.size_field.empty()) {
+    options.reference = SizeFieldReference{read_size_field(spec.size_field, mesh.positions.size())};
+  }
   options.untangle = parse_untangle(spec.untangle);
   options.threads = spec.threads;
   options.pinned = parse_pins(console, spec.pins, mesh, options);

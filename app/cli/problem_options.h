@@ -20,16 +20,18 @@ struct ProblemSpec {
   double exponent = 1;
   std::string reference = "equilateral";
   std::string boundary = "fixed";
+  double boundary_corner_deg = 45;
   std::string features = "auto";
   std::string surface = "project";
   std::string untangle = "auto";
   std::vector<std::string> pins;
+  std::string size_field;
   unsigned threads = 0;
 };
 
-/// Declares --mu, --weights, --exponent, --reference, --boundary, --features, --surface, --untangle, --pin
-/// and
-/// --threads.
+/// Declares --mu, --weights, --exponent, --reference, --size-field, --boundary, --boundary-corner,
+/// --features,
+/// --surface, --untangle, --pin and --threads.
 void declare_problem(CLI::App& app, ProblemSpec& spec);
 
 /// Reads the typed options for a mesh; files that they name too. Throws UsageError, InputError.

@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
+#include "mesh/normals.h"
 #include "trace/recorder.h"
 #include "trace/trace_file.h"
 
@@ -123,7 +124,11 @@ class SmoothCommand : public Command {
     if (!report_.empty()) check_writable(report_);
     if (!trace_.empty()) check_writable(trace_);
     frames_.start(mesh.positions);
+    const std::vector<Vec3> before = mesh.positions;
     const SmoothOutcome outcome = smooth(console, mesh);
+    const std::size_t refreshed = refresh_normals(mesh, before);
+    if (refreshed > 0)
+      console.message(input_ + ": " + std::to_string(refreshed) + " stored normals were made to fit again");
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
     if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
     if (const auto fault = fault_of(outcome)) {

@@ -1,6 +1,7 @@
 #include "cli/vertex_files.h"
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 
 #include "cli/console.h"
@@ -84,6 +85,26 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+std::vector<double> read_size_field(const std::string& path, std::size_t vertex_count) {
+  std::vector<double> lengths;
+  for_each_word(path, [&](const std::string& word, unsigned row) {
+    const auto value = parse_number(word);
+    if (!value || !(*value > 0) || !std::isfinite(*value))
+      throw InputError(path, line(row), "expected a positive edge length, found \"" + word + "\"");
+    if (lengths.size() == vertex_count) {
+      throw InputError(path, line(row),
+                       "holds more values than the mesh has vertices (" + std::to_string(vertex_count) + ")");
+    }
+    lengths.push_back(*value);
+  });
+  if (lengths.size() < vertex_count) {
+    throw InputError(path, "",
+                     "holds " + std::to_string(lengths.size()) + " values, but the mesh has " +
+                         std::to_string(vertex_count) + " vertices");
+  }
+  return lengths;
 }
 
 std::vector<Index> parse_pins(Console& console, const std::vector<std::string>& pins,

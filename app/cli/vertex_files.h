@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,9 @@ class Console;
 /// Throws UsageError for a box that is none, InputError for what is no number of a vertex.
 [[nodiscard]] std::vector<Index> parse_pins(Console& console, const std::vector<std::string>& pins,
                                             const TriangleMesh& mesh, const ProblemOptions& options);
+
+/// Target edge lengths from a text file: one positive number for each vertex, in order, separated by white
+/// space or commas, # starting a comment. Throws InputError with the line.
+[[nodiscard]] std::vector<double> read_size_field(const std::string& path, std::size_t vertex_count);
 
 }  // namespace isorelax::cli

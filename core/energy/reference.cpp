@@ -1,6 +1,7 @@
 #include "energy/reference.h"
 
 #include <cmath>
+#include <utility>
 
 #include "mesh/error.h"
 
@@ -38,6 +39,13 @@ ReferenceMesh ReferenceMesh::equilateral_edge(double edge_length, Index triangle
   ReferenceMesh reference;
   reference.count_ = triangle_count;
   reference.d1_ = {0.5 * std::sqrt(3.0) * edge_length * edge_length};
+  return reference;
+}
+
+ReferenceMesh ReferenceMesh::equilateral_areas(std::vector<double> doubled_areas) {
+  ReferenceMesh reference;
+  reference.count_ = static_cast<Index>(doubled_areas.size());
+  reference.d1_ = std::move(doubled_areas);
   return reference;
 }
 

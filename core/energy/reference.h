@@ -34,6 +34,8 @@ class ReferenceMesh {
                                              std::span<const Triangle> triangles);
   /// All equilateral with this edge length. Throws UsageError unless it is positive and finite.
   static ReferenceMesh equilateral_edge(double edge_length, Index triangle_count);
+  /// All equilateral, each with its own doubled area > 0.
+  static ReferenceMesh equilateral_areas(std::vector<double> doubled_areas);
   /// Angles and areas of the given triangles themselves. A triangle without area gets the equilateral one of
   /// mean area; its number is listed in `replaced()`.
   static ReferenceMesh of_mesh(std::span<const Vec3> positions, std::span<const Triangle> triangles);

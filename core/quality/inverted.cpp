@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/parallel.h"
+#include "quality/folded_patches.h"
 #include "quality/triangle_metrics.h"
 
 namespace isorelax {
@@ -67,8 +68,8 @@ bool turns_back(const Faces& faces, const Topology& topology, std::size_t t, con
     const bool consistent = faces.triangles[beyond / 3][next(beyond % 3)] == faces.triangles[t][previous(k)];
     if (!consistent) continue;
     ++neighbours;
-    const Vec3 other = faces.area_vector_of(beyond / 3);
-    if (normal.dot(other) < kFoldCosine * normal.norm() * other.norm()) ++folds;
+    const Vec3 other = faces.area_vector_of(beyond / 3).stableNormalized();
+    if (normal.stableNormalized().dot(other) < kFoldCosine) ++folds;
   }
   return folds > 0 && folds >= std::min(2U, neighbours);
 }
@@ -83,7 +84,7 @@ bool opposes_surroundings(const Faces& faces, const Topology& topology, std::siz
   around.erase(std::unique(around.begin(), around.end()), around.end());
   Vec3 mean = Vec3::Zero();
   for (const Corner other : around) mean += faces.area_vector_of(other);
-  return normal.dot(mean) < 0;
+  return normal.stableNormalized().dot(mean.stableNormalized()) < 0;
 }
 
 }  // namespace
@@ -92,21 +93,24 @@ std::optional<Vec3> plane_normal(std::span<const Vec3> positions, std::span<cons
                                  const Topology& topology, unsigned threads) {
   const Faces faces{positions, triangles};
   const Vec3 total = total_area_vector(faces, threads);
-  if (!(total.norm() > 0) || !lies_in_plane(faces, topology, total.normalized())) return std::nullopt;
-  return total.normalized();
+  const Vec3 normal = total.stableNormalized();
+  if (!(normal.norm() > 0) || !lies_in_plane(faces, topology, normal)) return std::nullopt;
+  return normal;
 }
 
 std::vector<Index> inverted_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                       const Topology& topology, unsigned threads) {
   const Faces faces{positions, triangles};
   const std::optional<Vec3> plane = plane_normal(positions, triangles, topology, threads);
+  std::vector<std::uint8_t> folded;
+  if (!plane) folded = folded_patches(positions, triangles, topology);
   std::vector<std::vector<Index>> found(block_count(triangles.size()));
   parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Vec3 normal = faces.area_vector_of(t);
-      const bool inverted =
-          plane ? normal.dot(*plane) < 0
-                : turns_back(faces, topology, t, normal) && opposes_surroundings(faces, topology, t, normal);
+      const bool inverted = plane ? normal.dot(*plane) < 0
+                                  : folded[t] != 0 || (turns_back(faces, topology, t, normal) &&
+                                                       opposes_surroundings(faces, topology, t, normal));
       if (inverted && !faces.degenerate(t)) found[begin / kBlockSize].push_back(static_cast<Index>(t));
     }
   });

@@ -16,7 +16,8 @@ namespace isorelax {
 /// triangle is inverted when it is folded over on its surroundings:
 ///   - the surface turns by more than 150 degrees across at least two of its edges (or across every edge that
 ///     has a triangle beyond it, where that is only one), and
-///   - its normal opposes the area-weighted mean normal of the triangles that share a vertex with it.
+///   - its normal opposes the area-weighted mean normal of the triangles that share a vertex with it,
+/// or when it belongs to a patch that is folded over as a whole (folded_patches).
 /// Only edges with exactly two triangles of consistent orientation are looked at. A degenerate triangle has
 /// no side and is never inverted.
 [[nodiscard]] std::vector<Index> inverted_triangles(std::span<const Vec3> positions,

@@ -1,6 +1,7 @@
 #include "smoothing/bounded_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 
@@ -13,7 +14,7 @@ namespace {
 
 /// The limit for a mesh when nobody stated one; see DeviationLimit.
 double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                       const FeatureOptions& features) {
+                       const ProblemOptions& options) {
   constexpr double kFine = 0.005;
   constexpr double kRadians = std::numbers::pi / 180;
   double sum = 0;
@@ -24,12 +25,15 @@ double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& 
   for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
     if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
     const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
-    if (turn >= features.ridge_angle_deg) continue;
+    if (turn >= options.features.ridge_angle_deg) continue;
     const Triangle& t = problem.triangles[c / 3];
     sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
     ++count;
   }
-  return count == 0 ? kFine : std::max(kFine, 0.5 * sum / (static_cast<double>(count) * (high - low).norm()));
+  const double diagonal = (high - low).norm();
+  const double chords = count == 0 ? 0 : 0.5 * sum / (static_cast<double>(count) * diagonal);
+  const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
+  return std::max({kFine, chords, border});
 }
 
 /// Vertices of the triangles over the limit, sorted.
@@ -80,13 +84,15 @@ std::vector<std::string> note_of(const UntangleResult& untangled) {
     return std::to_string(count) + (count == 1 ? " triangle" : " triangles");
   };
   if (untangled.moved.empty()) {
-    return {triangles(untangled.before) +
-            " upside down could not be turned by moving the vertices that may move"};
+    return {triangles(untangled.before) + " upside down " + (untangled.before == 1 ? "is" : "are") +
+            " left: few folds of a surface, or held by vertices that may not move"};
   }
   return {triangles(untangled.before) + (untangled.before == 1 ? " was" : " were") +
           " upside down: untangled by moving " + std::to_string(untangled.moved.size()) +
           (untangled.moved.size() == 1 ? " vertex" : " vertices") + ", " +
-          (untangled.after == 0 ? "none is" : std::to_string(untangled.after) + " are") + " left"};
+          (untangled.after == 0 ? "none is"
+                                : std::to_string(untangled.after) + (untangled.after == 1 ? " is" : " are")) +
+          " left"};
 }
 
 }  // namespace
@@ -137,7 +143,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   std::optional<double> largest = limit.max;
   for (;;) {
     const SmoothingProblem problem = make_problem(original, triangles, options);
-    if (!largest) largest = automatic_limit(original, problem, options.features);
+    if (!largest) largest = automatic_limit(original, problem, options);
     BoundedResult result;
     result.deviation_limit = *largest;
     result.notes = problem.notes;
@@ -172,12 +178,11 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   }
 }
 
-}  // namespace
-
-BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
-                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
-                          const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer) {
+/// Untangles, smooths from there, and measures against what came in.
+BoundedResult untangle_and_run(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                               const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
+                               const RunOptions& run_options, const DeviationLimit& limit,
+                               const StepObserver& observer) {
   const std::vector<Vec3> input(positions.begin(), positions.end());
   UntangleResult untangled = untangle_input(positions, triangles, problem_options);
   std::vector<std::string> notes = note_of(untangled);
@@ -199,6 +204,53 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
     result.deviation = deviation();
   result.untangled = std::move(untangled);
   result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
+  return result;
+}
+
+/// The power of two that brings a mesh of extreme size near one, where squares of areas neither overflow nor
+/// vanish; 1 for any other mesh.
+double scale_of(std::span<const Vec3> positions) {
+  constexpr int kLargestExponent = 100;
+  double largest = 0;
+  for (const Vec3& p : positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  const int exponent = std::ilogb(largest);
+  return std::abs(exponent) > kLargestExponent ? std::ldexp(1.0, -exponent) : 1;
+}
+
+/// The same options for a mesh scaled by this factor.
+ProblemOptions scaled(ProblemOptions options, double factor) {
+  if (auto* edge = std::get_if<EdgeLengthReference>(&options.reference)) edge->edge_length *= factor;
+  if (auto* mesh = std::get_if<MeshReference>(&options.reference))
+    for (Vec3& p : mesh->positions) p *= factor;
+  return options;
+}
+
+}  // namespace
+
+BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                          const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
+                          const RunOptions& run_options, const DeviationLimit& limit,
+                          const StepObserver& observer) {
+  const double factor = scale_of(positions);
+  if (factor == 1)
+    return untangle_and_run(positions, triangles, problem_options, make_smoother, run_options, limit,
+                            observer);
+  std::vector<Vec3> near_one(positions.begin(), positions.end());
+  for (Vec3& p : near_one) p *= factor;
+  const std::vector<Vec3> before = near_one;
+  std::vector<Vec3> shown;
+  const StepObserver observe = [&](unsigned iteration, const StepRecord& record,
+                                   std::span<const Vec3> moved) {
+    if (!observer) return true;
+    shown.assign(moved.begin(), moved.end());
+    for (Vec3& p : shown) p /= factor;
+    return observer(iteration, record, shown);
+  };
+  BoundedResult result = untangle_and_run(near_one, triangles, scaled(problem_options, factor), make_smoother,
+                                          run_options, limit, observe);
+  for (Index v = 0; v < positions.size(); ++v)
+    if (near_one[v] != before[v]) positions[v] = near_one[v] / factor;
   return result;
 }
 

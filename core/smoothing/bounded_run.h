@@ -11,7 +11,8 @@ namespace isorelax {
 struct DeviationLimit {
   /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: 0.005, or
   /// where the mesh is coarse half the mean of edge length times dihedral turn over its smooth edges: two
-  /// good meshes of one curved surface differ by the height of their chords.
+  /// good meshes of one curved surface differ by the height of their chords. With a free border at least a
+  /// mean edge: that is how far its outline may go.
   std::optional<double> max;
 };
 
@@ -44,7 +45,9 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 /// upside down (inverted_triangles) that did not before. Throws as make_problem.
 ///
 /// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
-/// holds for both together; what untangling alone takes is not held against the automatic one.
+/// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of
+/// extreme size (beyond 2^100 or 2^-100) is smoothed at a size near one, in which the lengths of its records
+/// are.
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/error.h"
+#include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
 
 namespace isorelax {
@@ -235,6 +236,32 @@ class ProblemBuilder {
   std::vector<Index> left_out_;
 };
 
+/// References for target edge lengths per vertex.
+ReferenceMesh field_reference(std::span<const double> edge_lengths, std::span<const Vec3> positions,
+                              std::span<const Triangle> triangles) {
+  if (edge_lengths.size() != positions.size()) {
+    throw MeshError("the size field has " + std::to_string(edge_lengths.size()) + " values, the mesh " +
+                    std::to_string(positions.size()) + " vertices");
+  }
+  for (const double length : edge_lengths) {
+    if (!(length > 0) || !std::isfinite(length))
+      throw UsageError("the edge lengths of a size field must be positive and finite");
+  }
+  const double largest = *std::max_element(edge_lengths.begin(), edge_lengths.end());
+  std::vector<double> doubled_areas;
+  double wanted = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const double edge =
+        (edge_lengths[a] / largest + edge_lengths[b] / largest + edge_lengths[c] / largest) / 3;
+    doubled_areas.push_back(edge * edge);
+    wanted += doubled_areas.back();
+  }
+  const double mean = ReferenceMesh::equilateral_mean_area(positions, triangles).d1(0);
+  const double factor = mean * static_cast<double>(triangles.size()) / wanted;
+  for (double& area : doubled_areas) area *= factor;
+  return ReferenceMesh::equilateral_areas(std::move(doubled_areas));
+}
+
 }  // namespace
 
 ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
@@ -249,6 +276,14 @@ ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3
                       std::to_string(positions.size()));
     }
     return ReferenceMesh::of_mesh(mesh->positions, triangles);
+  }
+  if (const auto* field = std::get_if<SizeFieldReference>(&choice))
+    return field_reference(field->edge_lengths, positions, triangles);
+  if (const auto* curvature = std::get_if<CurvatureReference>(&choice)) {
+    const Topology topology(triangles, static_cast<Index>(positions.size()));
+    return field_reference(
+        curvature_size_field(positions, triangles, topology, {.features = curvature->features}), positions,
+        triangles);
   }
   return ReferenceMesh::equilateral_mean_area(positions, triangles);
 }
@@ -290,6 +325,12 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .mean_edge_length = 0,
                            .threads = options.threads,
                            .notes = {}};
+  const bool field = std::holds_alternative<SizeFieldReference>(options.reference) ||
+                     std::holds_alternative<CurvatureReference>(options.reference);
+  if (field && options.weights.area == 0) {
+    problem.notes.emplace_back(
+        "the size field has no effect: areas have no weight (--mu 0 is the default; try --mu 0.5)");
+  }
   for (const Index t : problem.reference.replaced()) {
     problem.notes.push_back("triangle " + std::to_string(t) +
                             " of the reference is degenerate: an equilateral one stands in");

@@ -40,10 +40,22 @@ struct InitialReference {};
 struct MeshReference {
   std::vector<Vec3> positions;
 };
-using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, InitialReference, MeshReference>;
+/// Equilateral references whose edge length is the mean of what their vertices ask for. Only the ratios
+/// count: one factor makes the areas of all references add up to that of the mesh, since triangles are
+/// neither made nor removed.
+struct SizeFieldReference {
+  std::vector<double> edge_lengths;  ///< per vertex
+};
+/// The same with a field that follows the curvature (curvature_size_field).
+struct CurvatureReference {
+  FeatureOptions features;
+};
+using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, InitialReference, MeshReference,
+                                     SizeFieldReference, CurvatureReference>;
 
-/// The reference triangles that a choice means for these triangles. Throws MeshError when another mesh does
-/// not have as many vertices or there is no area, UsageError for an edge length that is not positive.
+/// The reference triangles that a choice means for these triangles. Throws MeshError when another mesh or a
+/// field does not have as many vertices or there is no area, UsageError for an edge length that is not
+/// positive.
 [[nodiscard]] ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
                                            std::span<const Triangle> triangles);
 

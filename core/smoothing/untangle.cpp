@@ -5,6 +5,7 @@
 
 #include "quality/inverted.h"
 #include "smoothing/harmonic.h"
+#include "smoothing/lift_moved.h"
 #include "smoothing/minimise.h"
 #include "smoothing/orientation_field.h"
 #include "smoothing/regularised_energy.h"
@@ -22,11 +23,17 @@ constexpr double kSoundDeterminant = 1e-4;
 /// Least share by which a round lowers chi of the worst determinant.
 constexpr double kLeastProgress = 0.1;
 
+constexpr unsigned kPasses = 4;
+/// So many rounds in turn that hardly lower the energy end the search.
+constexpr int kIdleRounds = 4;
+constexpr double kIdleProgress = 0.01;
+
 class Untangler {
  public:
   Untangler(std::span<Vec3> positions, std::span<const Triangle> triangles, const Topology& topology,
             std::span<const std::uint8_t> movable, const OrientationField& field, unsigned threads)
-      : best_(positions.begin(), positions.end()),
+      : start_(positions.begin(), positions.end()),
+        best_(start_),
         triangles_(triangles),
         topology_(topology),
         movable_(movable),
@@ -38,11 +45,24 @@ class Untangler {
     if (tangled_.empty()) return;
     put_back_thrown();
     for (const unsigned rings : {0U, 0U, 1U, 2U}) place_among_neighbours(around_tangled(rings));
-    for (const unsigned rings : {1U, 3U, 8U}) regularise(around_tangled(rings), Start::as_it_is);
-    regularise(around_tangled(8), Start::harmonic);
+    for (const unsigned rings : {1U, 3U}) regularise(around_tangled(rings), Start::as_it_is);
     if (!field_.planar) return;
+    regularise(around_tangled(8), Start::as_it_is);
+    regularise(around_tangled(8), Start::harmonic);
     regularise(all_movable(), Start::harmonic);
     regularise(all_movable(), Start::as_it_is);
+  }
+
+  /// Brings what was moved back to the surface of what was not.
+  void lift() {
+    std::vector<std::uint8_t> moved(best_.size(), 0);
+    for (Index v = 0; v < best_.size(); ++v) moved[v] = best_[v] == start_[v] ? 0 : 1;
+    std::vector<Vec3> x = best_;
+    lift_moved(x, triangles_, topology_, field_.vertex_normals, moved);
+    std::vector<Index> tangled = find_tangled(x);
+    if (tangled.size() > tangled_.size()) return;
+    best_ = std::move(x);
+    tangled_ = std::move(tangled);
   }
 
   [[nodiscard]] const std::vector<Vec3>& best() const { return best_; }
@@ -63,7 +83,7 @@ class Untangler {
     std::vector<Index> found;
     for (Index t = 0; t < triangles_.size(); ++t) {
       const Triangle& v = triangles_[t];
-      if (field_.judged[t] == 0 || movable_[v[0]] + movable_[v[1]] + movable_[v[2]] == 0) continue;
+      if (field_.normals[t].isZero(0) || movable_[v[0]] + movable_[v[1]] + movable_[v[2]] == 0) continue;
       if (is_tangled(x, t)) found.push_back(t);
     }
     return found;
@@ -161,11 +181,13 @@ class Untangler {
     double worst = energy.worst_determinant(at);
     double epsilon = std::max(1e-3, std::abs(worst));
     const double step = std::sqrt(typical_area(x, free));
-    for (int round = 0; round < kRounds && worst < kSoundDeterminant; ++round) {
+    int idle = 0;
+    for (int round = 0; round < kRounds && idle < kIdleRounds && worst < kSoundDeterminant; ++round) {
       energy.set_epsilon(epsilon);
       const double before = energy(at, gradient);
       const double after = minimise(function, at, {.iterations = kSteps, .first_step = step});
       worst = energy.worst_determinant(at);
+      idle = 1 - after / before < kIdleProgress ? idle + 1 : 0;
       const double progress = std::max(kLeastProgress, 1 - after / before);
       const double chi = (1 - progress) * 0.5 * (worst + std::sqrt(epsilon * epsilon + worst * worst));
       epsilon = worst < chi ? 2 * std::sqrt(chi * (chi - worst)) : 1e-6;
@@ -186,7 +208,7 @@ class Untangler {
     return *middle > 0 ? *middle : *std::max_element(areas.begin(), areas.end());
   }
 
-  std::vector<Vec3> best_;
+  std::vector<Vec3> start_, best_;
   std::span<const Triangle> triangles_;
   const Topology& topology_;
   std::span<const std::uint8_t> movable_;
@@ -199,22 +221,35 @@ class Untangler {
 
 UntangleResult untangle(std::span<Vec3> positions, std::span<const Triangle> triangles,
                         const Topology& topology, std::span<const std::uint8_t> movable, unsigned threads) {
-  const auto inverted = [&](std::span<const Vec3> x) {
-    return inverted_triangles(x, triangles, topology, threads).size();
+  const auto find_inverted = [&](std::span<const Vec3> x) {
+    return inverted_triangles(x, triangles, topology, threads);
   };
   UntangleResult result;
-  result.before = result.after = inverted(positions);
-  if (result.before == 0) return result;
-  const OrientationField field = find_orientation(positions, triangles, topology, threads);
-  Untangler untangler(positions, triangles, topology, movable, field, threads);
-  untangler.run();
-  const std::size_t after = inverted(untangler.best());
-  if (after >= result.before) return result;
-  result.after = after;
+  const std::vector<Index> inverted = find_inverted(positions);
+  result.before = result.after = inverted.size();
+  if (inverted.empty()) return result;
+  const bool planar = plane_normal(positions, triangles, topology, threads).has_value();
+  std::vector<Vec3> x(positions.begin(), positions.end());
+  std::vector<Index> doubtful = planar ? inverted : doubtful_triangles(inverted, x, triangles, topology);
+  // On a surface the field tells more once some are turned.
+  for (unsigned pass = 0; pass < kPasses && !doubtful.empty(); ++pass) {
+    const OrientationField field = find_orientation(x, triangles, topology, doubtful, threads);
+    Untangler untangler(x, triangles, topology, movable, field, threads);
+    untangler.run();
+    if (!planar) untangler.lift();
+    const std::vector<Index> still = find_inverted(untangler.best());
+    std::vector<Index> left =
+        planar ? still : doubtful_triangles(still, untangler.best(), triangles, topology);
+    if (left.size() >= doubtful.size() || still.size() > result.after) break;
+    result.after = still.size();
+    x = untangler.best();
+    doubtful = std::move(left);
+  }
+  if (result.after == result.before) return result;
   for (Index v = 0; v < positions.size(); ++v) {
-    if (positions[v] == untangler.best()[v]) continue;
+    if (positions[v] == x[v]) continue;
     result.moved.push_back(v);
-    positions[v] = untangler.best()[v];
+    positions[v] = x[v];
   }
   return result;
 }

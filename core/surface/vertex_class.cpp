@@ -12,6 +12,10 @@ namespace isorelax {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+/// A border that turns by no more than this in a vertex runs straight through it, by more than that it does
+/// not.
+constexpr double kStraightDeg = 0.003;
+constexpr double kKinkDeg = 0.05;
 
 /// Angle of a matrix eigenvalue ratio: a crease with dihedral turn phi between equal areas has l2 / l1 =
 /// tan^2(phi / 2).
@@ -98,8 +102,19 @@ class Classifier {
     const std::vector<Index> ends = border_neighbours(v);
     if (ends.size() != 2 || !crease_neighbours(v).empty()) return set(v, VertexClass::corner, 180);
     r_.turn_deg[v] = turn(v, {ends[0], ends[1]});
-    const double over = r_.turn_deg[v] - options_.turn_deg;
+    const double over = r_.turn_deg[v] - options_.boundary_turn_deg;
+    if (over <= 0 && ends_a_straight_stretch(v, {ends[0], ends[1]}))
+      return set(v, VertexClass::corner, r_.turn_deg[v] - kKinkDeg);
     set(v, over > 0 ? VertexClass::corner : VertexClass::boundary, std::abs(over));
+  }
+
+  /// Whether the border runs straight through a neighbour on it, but not through this vertex.
+  [[nodiscard]] bool ends_a_straight_stretch(Index v, std::array<Index, 2> neighbours) const {
+    if (r_.turn_deg[v] <= kKinkDeg) return false;
+    return std::any_of(neighbours.begin(), neighbours.end(), [&](Index w) {
+      const std::vector<Index> ends = border_neighbours(w);
+      return ends.size() == 2 && turn(w, {ends[0], ends[1]}) <= kStraightDeg;
+    });
   }
 
   void classify_interior(Index v) {

@@ -28,7 +28,7 @@ struct FeatureOptions {
   double sharp_edge_deg = 65;
   /// A vertex whose angles miss or exceed 2 pi by at least this is a corner.
   double corner_defect_deg = 60;
-  /// A ridge or a boundary that turns by more than this in a vertex has a corner there.
+  /// A ridge that turns by more than this in a vertex has a corner there.
   double turn_deg = 45;
   /// An edge that turns by less than this many times the mean of the smooth edges about it is roughness, not
   /// a crease.
@@ -36,6 +36,8 @@ struct FeatureOptions {
   /// A line of fewer crease edges that ends in the middle of a face is no feature, nor one of fewer than
   /// twice as many that does so at both ends.
   unsigned least_crease_edges = 4;
+  /// A boundary that turns by more than this in a vertex has a corner there.
+  double boundary_turn_deg = 45;
 
   static constexpr FeatureOptions none() { return {180, 180, 1e9, 45}; }
 };
@@ -67,7 +69,8 @@ struct VertexClasses {
 /// Classifies every vertex (paper Sec. 3, method Sec. 4). A vertex in no triangle is a corner.
 ///
 /// Creases are those of find_creases. Boundary vertices are `boundary`, or `corner` where the border turns by
-/// more than turn_deg, where a crease runs into it, or where several borders meet. Elsewhere: a corner where
+/// more than boundary_turn_deg, where a straight stretch of it ends in a turn however small (so that straight
+/// outlines are kept), where a crease runs into it, or where several borders meet. Elsewhere: a corner where
 /// the angles miss 2 pi by corner_defect_deg, where one crease ends, where three or more meet, or where the
 /// line of two turns by more than turn_deg, both between the neighbours on it and between theirs: a line that
 /// only follows the zigzag of its edges has no corner. A ridge where two creases meet; else smooth.

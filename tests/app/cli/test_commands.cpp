@@ -141,6 +141,38 @@ TEST(SmoothCommand, PinsByPredicate) {
   expect_one_error_line(missing);
 }
 
+TEST(SmoothCommand, NamesWhatIsWrongInASizeField) {
+  const Workspace workspace;
+  const std::string smooth = "smooth " + workspace.write("t.off", kTriangle) + " -o " +
+                             workspace.path("o.off") + " --mu 0.5 --size-field ";
+  EXPECT_EQ(run_program(smooth + workspace.write("good.txt", "1 # one\n2, 3\n")).status, 0);
+  EXPECT_EQ(run_program(smooth + "curvature").status, 0);
+  for (const auto& [text, place] : std::vector<std::pair<std::string, std::string>>{
+           {"1\n2\n", "holds 2 values"},
+           {"1\n2\n3\n4\n", "line 4"},
+           {"1\n-2\n3\n", "line 2: expected a positive edge length, found \"-2\""},
+           {"1\n2\nnan\n", "line 3"}}) {
+    const Outcome outcome = run_program(smooth + workspace.write("bad.txt", text));
+    EXPECT_EQ(outcome.status, 3);
+    expect_one_error_line(outcome);
+    EXPECT_NE(outcome.err.find("bad.txt: " + place), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(SmoothCommand, MakesStoredNormalsFitAgain) {
+  const Workspace workspace;
+  const std::string mesh =
+      workspace.write("n.off",
+                      "NOFF\n5 4 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n0.8 0.7 0.3 1 0 0\n"
+                      "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n");
+  const std::string out = workspace.path("o.off");
+  const Outcome outcome =
+      run_program("smooth " + mesh + " -o " + out + " --surface tangent --max-deviation inf --features none");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("5 stored normals"), std::string::npos) << outcome.err;
+  EXPECT_EQ(contents(out).find(" 1 0 0\n"), std::string::npos) << contents(out);
+}
+
 TEST(SmoothCommand, UntanglesAndSaysSo) {
   const Workspace workspace;
   const std::string tangled = workspace.path("tangled.off");

@@ -16,7 +16,7 @@ constexpr std::array kSolvers = {Solver::jacobi, Solver::newton, Solver::lbfgs, 
 /// Nothing is a corner, not even where the border turns.
 FeatureOptions no_corners() {
   FeatureOptions options = FeatureOptions::none();
-  options.turn_deg = 181;
+  options.turn_deg = options.boundary_turn_deg = 181;
   return options;
 }
 

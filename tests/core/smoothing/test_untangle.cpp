@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "generate/generate.h"
+#include "generate/random.h"
 #include "quality/inverted.h"
 #include "quality/report.h"
 #include "smoothing/bounded_run.h"
@@ -113,6 +114,41 @@ TEST(Untangle, PinnedVerticesAndTheBorderStay) {
   EXPECT_EQ(result.untangled.after, upside_down(mesh));
   for (const Index v : options.pinned) EXPECT_EQ(mesh.positions[v], input.positions[v]);
   for (const Index v : boundary_vertices(topology)) EXPECT_EQ(mesh.positions[v], input.positions[v]);
+}
+
+/// Triangles of a sphere about the origin that face inward.
+std::size_t facing_inward(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 area = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+    count += area.dot(mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) > 0 ? 0 : 1;
+  }
+  return count;
+}
+
+TEST(Untangle, TurnsTrianglesOfASphereAndStaysOnIt) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 800});
+    Random random(seed);
+    for (Vec3& p : mesh.positions) {
+      const Vec3 throw_by(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      if (random.uniform() < 0.05) p = (p + 0.3 * throw_by).normalized();
+    }
+    ASSERT_GT(facing_inward(mesh), 20U);
+    const BoundedResult result = smooth(mesh);
+    EXPECT_EQ(facing_inward(mesh), 0U) << seed;
+    EXPECT_EQ(result.untangled.after, 0U);
+    for (const Vec3& p : mesh.positions) EXPECT_NEAR(p.norm(), 1, 0.01);
+  }
+}
+
+TEST(Untangle, SoundSurfacesAreLeftAlone) {
+  for (const ShapeKind kind : {ShapeKind::part, ShapeKind::cone, ShapeKind::torus}) {
+    TriangleMesh mesh = generate(kind, {.triangles = 1000});
+    const UntangleResult result = untangle_input(mesh.positions, mesh.triangles, {});
+    EXPECT_EQ(result.before, 0U);
+    EXPECT_TRUE(result.moved.empty());
+  }
 }
 
 TEST(Untangle, DoesNotDependOnThreads) {

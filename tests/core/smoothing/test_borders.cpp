@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "generate/generate.h"
+#include "smoothing/bounded_run.h"
+#include "smoothing/pins.h"
+
+namespace isorelax {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+BoundedResult smooth(TriangleMesh& mesh, const ProblemOptions& options, unsigned iterations = 60) {
+  return run_bounded(
+      mesh.positions, mesh.triangles, options,
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
+      {.iterations = iterations}, {});
+}
+
+double signed_area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += 0.5 * area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]).z();
+  return sum;
+}
+
+/// Rings of triangles about the origin; `outline` maps an angle to the radius of the last ring, `squeeze`
+/// moves its vertices along it.
+template <typename Outline>
+TriangleMesh disc(unsigned rings, const Outline& outline, double squeeze) {
+  TriangleMesh mesh;
+  mesh.positions.emplace_back(0, 0, 0);
+  for (unsigned r = 1; r <= rings; ++r)
+    for (unsigned i = 0; i < 6 * r; ++i) {
+      const double even = 2 * kPi * i / (6 * r);
+      const double angle = even + (r == rings ? squeeze * std::sin(12 * even) / 12 : 0.0);
+      mesh.positions.emplace_back(Vec3(std::cos(angle), std::sin(angle), 0) * (outline(angle) * r / rings));
+    }
+  const auto id = [](unsigned r, unsigned i) { return r == 0 ? 0 : 1 + 3 * r * (r - 1) + i % (6 * r); };
+  for (unsigned r = 1; r <= rings; ++r)
+    for (unsigned side = 0; side < 6; ++side)
+      for (unsigned i = 0; i < r; ++i) {
+        const Index a = id(r, side * r + i), b = id(r, side * r + i + 1),
+                    inner = id(r - 1, side * (r - 1) + i);
+        mesh.triangles.push_back({inner, a, b});
+        if (i + 1 < r) mesh.triangles.push_back({inner, b, id(r - 1, side * (r - 1) + i + 1)});
+      }
+  return mesh;
+}
+
+TEST(Borders, SlidingKeepsTheSquare) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 4, .triangles = 600});
+  const TriangleMesh input = mesh;
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  smooth(mesh, {.boundary = BoundaryRule::slide});
+  EXPECT_NEAR(signed_area(mesh), 1, 1e-12);
+  std::size_t moved = 0;
+  for (const Index v : boundary_vertices(topology)) {
+    const Vec3& p = mesh.positions[v];
+    EXPECT_LE(std::min({std::abs(p.x()), std::abs(p.y()), std::abs(1 - p.x()), std::abs(1 - p.y())}), 1e-15);
+    EXPECT_EQ(p.z(), 0);
+    moved += p == input.positions[v] ? 0 : 1;
+  }
+  EXPECT_GT(moved, 20U);
+}
+
+TEST(Borders, SlidingStaysOnACurvedBorderHoweverManySteps) {
+  const auto circle = [](double) { return 1.0; };
+  for (const unsigned iterations : {5U, 200U}) {
+    TriangleMesh mesh = disc(8, circle, 0.8);
+    const TriangleMesh input = mesh;
+    const Topology topology(mesh.triangles, mesh.vertex_count());
+    const double area = signed_area(mesh);
+    smooth(mesh, {.weights = {1, 1}, .boundary = BoundaryRule::slide}, iterations);
+    std::size_t moved = 0;
+    for (const Index v : boundary_vertices(topology)) {
+      EXPECT_NEAR(mesh.positions[v].norm(), 1, 1e-4);
+      moved += (mesh.positions[v] - input.positions[v]).norm() > 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(moved, 10U);
+    EXPECT_GT(signed_area(mesh), area);  // evenly spread points span more of the disc
+  }
+}
+
+TEST(Borders, ObtuseCornersOfAPolygonStayByThemselves) {
+  // 24 corners that turn by 15 degrees, far under what counts as a corner on a curve.
+  const auto polygon = [](double angle) {
+    const double sector = 2 * kPi / 24;
+    const double within = angle - sector * std::floor(angle / sector) - 0.5 * sector;
+    return std::cos(0.5 * sector) / std::cos(within);
+  };
+  TriangleMesh mesh = disc(16, polygon, 0);
+  mesh.positions[1] += Vec3(0.02, 0.01, 0);
+  const double area = signed_area(mesh);
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  smooth(mesh, {.boundary = BoundaryRule::slide});
+  EXPECT_NEAR(signed_area(mesh), area, 1e-9);
+  for (const Index v : boundary_vertices(topology)) {
+    const Vec3& p = mesh.positions[v];
+    EXPECT_NEAR(p.norm(), polygon(std::atan2(p.y(), p.x())), 1e-9);
+  }
+}
+
+TEST(Borders, ACornerIsWhatTurnsByMoreThanTheStatedAngle) {
+  const auto circle = [](double) { return 1.0; };
+  const TriangleMesh mesh = disc(4, circle, 0);  // 24 border vertices that turn by 15 degrees
+  ProblemOptions options{.boundary = BoundaryRule::slide};
+  const auto corners = [&] {
+    const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, options);
+    return std::count(problem.classes.classes.begin(), problem.classes.classes.end(), VertexClass::corner);
+  };
+  EXPECT_EQ(corners(), 0);
+  options.features.boundary_turn_deg = 14;
+  EXPECT_EQ(corners(), 24);
+  options.features.boundary_turn_deg = 16;
+  EXPECT_EQ(corners(), 0);
+}
+
+TEST(Borders, AFreeBorderMovesButStaysNearWhereItWas) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 4, .triangles = 600});
+  const BoundedResult result = smooth(mesh, {.boundary = BoundaryRule::free});
+  EXPECT_LE(result.deviation.max, result.deviation_limit);
+  EXPECT_GT(result.deviation.max, 1e-6);
+  EXPECT_NEAR(signed_area(mesh), 1, 0.03);
+}
+
+TEST(Borders, PinsHoldBitForBitWhereOthersSlide) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 2, .triangles = 400});
+  const TriangleMesh input = mesh;
+  const std::vector<Index> pinned = vertices_in({Vec3(0.3, -1, -1), Vec3(0.6, 2, 1)}, mesh.positions);
+  ASSERT_GT(pinned.size(), 20U);
+  smooth(mesh, {.boundary = BoundaryRule::slide, .pinned = pinned});
+  for (const Index v : pinned) EXPECT_EQ(mesh.positions[v], input.positions[v]);
+  EXPECT_NE(mesh.positions, input.positions);
+}
+
+TEST(Borders, PredicatesNameWhatTheySay) {
+  const TriangleMesh cube = generate(ShapeKind::cube, {.triangles = 600});
+  const Topology topology(cube.triangles, cube.vertex_count());
+  EXPECT_TRUE(boundary_vertices(topology).empty());
+  const auto features = feature_vertices(cube.positions, cube.triangles, topology, {});
+  Vec3 low = cube.positions[0], high = low;
+  for (const Vec3& p : cube.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (Index v = 0; v < cube.vertex_count(); ++v) {
+    const Vec3& p = cube.positions[v];
+    const auto faces = (p.array() < low.array() + 1e-9).count() + (p.array() > high.array() - 1e-9).count();
+    EXPECT_EQ(std::binary_search(features.begin(), features.end(), v), faces >= 2) << p.transpose();
+  }
+}
+
+TEST(Borders, MeshesOfExtremeSizeAreSmoothedAlike) {
+  for (const ShapeKind kind : {ShapeKind::random_square, ShapeKind::sphere}) {
+    TriangleMesh one = generate(kind, {.triangles = 200, .tangle = kind == ShapeKind::sphere ? 0 : 0.1});
+    const TriangleMesh input = one;
+    smooth(one, {});
+    for (const int exponent : {332, -332}) {  // 1e100 and 1e-100
+      TriangleMesh other = input;
+      const double factor = std::ldexp(1.0, exponent);
+      for (Vec3& p : other.positions) p *= factor;
+      smooth(other, {});
+      double off = 0;
+      for (Index v = 0; v < one.vertex_count(); ++v)
+        off = std::max(off, (other.positions[v] / factor - one.positions[v]).norm());
+      EXPECT_LT(off, 1e-6) << exponent;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isorelax
