@@ -32,7 +32,7 @@ void for_each_word(const std::string& path, const Word& word) {
   if (file.bad()) throw InputError(path, "", "cannot be read");
 }
 
-std::string line(unsigned row) {
+std::string place_of(unsigned row) {
   return "line " + std::to_string(row);
 }
 
@@ -42,9 +42,9 @@ std::vector<Index> read_pins(const std::string& path, std::size_t vertex_count) 
     Index id = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), id);
     if (error != std::errc() || stop != word.data() + word.size())
-      throw InputError(path, line(row), "expected vertex numbers, found \"" + word + "\"");
+      throw InputError(path, place_of(row), "expected vertex numbers, found \"" + word + "\"");
     if (id >= vertex_count) {
-      throw InputError(path, line(row),
+      throw InputError(path, place_of(row),
                        "names vertex " + word + ", but the mesh has " + std::to_string(vertex_count) +
                            " (numbered from 0)");
     }
@@ -92,9 +92,9 @@ std::vector<double> read_size_field(const std::string& path, std::size_t vertex_
   for_each_word(path, [&](const std::string& word, unsigned row) {
     const auto value = parse_number(word);
     if (!value || !(*value > 0) || !std::isfinite(*value))
-      throw InputError(path, line(row), "expected a positive edge length, found \"" + word + "\"");
+      throw InputError(path, place_of(row), "expected a positive edge length, found \"" + word + "\"");
     if (lengths.size() == vertex_count) {
-      throw InputError(path, line(row),
+      throw InputError(path, place_of(row),
                        "holds more values than the mesh has vertices (" + std::to_string(vertex_count) + ")");
     }
     lengths.push_back(*value);

@@ -9,7 +9,7 @@ namespace isorelax {
 namespace {
 
 /// Cosine of 120 degrees.
-constexpr double kFoldCosine = -0.5;
+constexpr double kPatchFoldCosine = -0.5;
 constexpr std::size_t kLargestShare = 10;
 
 /// Disjoint sets; the representative of each is its smallest member.
@@ -73,7 +73,7 @@ class Patches {
       if (triangles_[u][next(beyond % 3)] != triangles_[t][previous(c % 3)]) continue;
       parts_.join(t, u);
       if (normals_[t].isZero(0) || normals_[u].isZero(0)) continue;
-      if (normals_[t].dot(normals_[u]) < kFoldCosine) {
+      if (normals_[t].dot(normals_[u]) < kPatchFoldCosine) {
         folds_.push_back({t, u});
         folds_.push_back({u, t});
       } else {

@@ -17,7 +17,7 @@ struct CurvaturePair {
 };
 
 /// The two-loop recursion: minus the remembered inverse Hessian times the gradient.
-Eigen::VectorXd descent_direction(const std::deque<CurvaturePair>& pairs, const Eigen::VectorXd& gradient) {
+Eigen::VectorXd two_loop_direction(const std::deque<CurvaturePair>& pairs, const Eigen::VectorXd& gradient) {
   Eigen::VectorXd d = -gradient;
   std::vector<double> alphas(pairs.size());
   for (std::size_t k = pairs.size(); k-- > 0;) {
@@ -40,7 +40,7 @@ double minimise(const DifferentiableFunction& function, Eigen::VectorXd& x, cons
     const double steepness = gradient.norm();
     if (!(steepness > 0)) break;
     Eigen::VectorXd d = pairs.empty() ? Eigen::VectorXd(-options.first_step / steepness * gradient)
-                                      : descent_direction(pairs, gradient);
+                                      : two_loop_direction(pairs, gradient);
     const double slope = d.dot(gradient);
     if (!(slope < 0)) {  // rounding spoilt the memory
       if (pairs.empty()) break;

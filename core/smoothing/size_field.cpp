@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kAveragingRounds = 2;
 /// Curvature times extent below which a surface counts as flat.
-constexpr double kFlat = 1e-6;
+constexpr double kFlatCurvature = 1e-6;
 
 class CurvatureField {
  public:
@@ -40,7 +40,7 @@ class CurvatureField {
     const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
     const double edge = mean_edge();
     std::vector<double> lengths(x_.size(), edge);
-    if (!(mean * extent() > kFlat)) return lengths;
+    if (!(mean * extent() > kFlatCurvature)) return lengths;
     for (Index v = 0; v < x_.size(); ++v) {
       if (curvature[v] < 0) continue;
       const double ratio = std::sqrt(mean / std::max(curvature[v], 1e-300));
