@@ -50,7 +50,8 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->type_name("S,A")
       ->excludes(mu);
   app.add_option("--exponent", spec.exponent,
-                 "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 1)")
+                 "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
+                 "1 where squares would lower the mean of the smallest angles)")
       ->type_name("P");
   auto* reference =
       app.add_option(

@@ -17,7 +17,7 @@ class Console;
 struct ProblemSpec {
   double mu = 0;
   std::string weights;
-  double exponent = 1;
+  std::optional<double> exponent;
   std::string reference = "equilateral";
   std::string boundary = "fixed";
   double boundary_corner_deg = 45;

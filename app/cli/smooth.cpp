@@ -48,6 +48,11 @@ Json to_json(const SmoothOutcome& outcome) {
     limited[std::string(limit_name(kLimits[bit]))] = outcome.limits[bit];
   object["limited_in_last_step"] = std::move(limited);
   object["turned_over"] = outcome.turned_over.size();
+  if (outcome.polish) {
+    object["polish"] = {{"iterations", outcome.polish->iterations},
+                        {"stopped", name_of(outcome.polish->stopped)},
+                        {"seconds", outcome.polish->seconds}};
+  }
   object["notes"] = outcome.notes;
   return object;
 }
@@ -82,7 +87,8 @@ class SmoothCommand : public Command {
            "\n"
            "A run stops after --iterations steps, or when the tangent gradient falls below T times its "
            "start, the\n"
-           "largest move below T mean edges, or the relative decrease of the energy below T/1000; "
+           "largest move below T mean edges, or the relative decrease of the energy below T five times in a "
+           "row; "
            "--tolerance 0\n"
            "does exactly --iterations steps.\n"
            "\n"
@@ -146,6 +152,8 @@ class SmoothCommand : public Command {
                          : ""));
     console.message("stopped after " + std::to_string(outcome.run.iterations) +
                     " iterations: " + std::string(to_string(outcome.run.stopped)));
+    if (outcome.polish)
+      console.message("worst angles polished in " + std::to_string(outcome.polish->iterations) + " more");
     return kDone;
   }
 

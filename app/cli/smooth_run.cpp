@@ -25,10 +25,19 @@ void SmoothRun::declare(CLI::App& app) {
   const std::vector<CLI::Option*> others = app.get_options();
   declare_method(app, method_);
   declare_problem(app, problem_);
-  app.add_option("--iterations", run_.iterations, "Largest number of steps (default 100)")->type_name("N");
+  app.add_option("--iterations", run_.iterations, "Largest number of steps (default 1000)")->type_name("N");
   app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
       ->type_name("T")
       ->check(number_between(0, std::numeric_limits<double>::max()));
+  app.add_option(
+         "--polish", polish_,
+         "worst: a last stage that raises the smallest angles themselves, the worst first; none (default)")
+      ->type_name("WHAT");
+  app.add_option(
+         "--polish-mean-loss", polish_options_.largest_mean_loss,
+         "The mean of the triangles' smallest angles falls by no more in that stage, degrees (default 1)")
+      ->type_name("DEG")
+      ->check(number_between(0, 60));
   app.add_option("--max-deviation", limit_.max,
                  "Largest distance from the input surface, of its bounding-box diagonal (default 0.005, "
                  "more where the mesh is coarse; inf: any)")
@@ -40,7 +49,14 @@ void SmoothRun::declare(CLI::App& app) {
 }
 
 void SmoothRun::check() const {
-  (void)parse_method(*app_, method_);
+  const Method method = parse_method(*app_, method_);
+  if (parse_polish() && !method.guarded) throw UsageError("--polish worst: not without a guard");
+}
+
+std::optional<PolishOptions> SmoothRun::parse_polish() const {
+  if (polish_ == "none") return std::nullopt;
+  if (polish_ == "worst") return polish_options_;
+  throw UsageError("--polish " + polish_ + ": expected worst or none");
 }
 
 std::vector<std::string> SmoothRun::words() const {
@@ -82,8 +98,8 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
       return !observer || observer(iteration, record, positions);
     };
     if (method.guarded) {
-      static_cast<BoundedResult&>(outcome) =
-          run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show);
+      static_cast<BoundedResult&>(outcome) = run_bounded(
+          mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show, parse_polish());
     } else {
       static_cast<UnguardedResult&>(outcome) =
           run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);

@@ -49,12 +49,16 @@ class SmoothRun {
   [[nodiscard]] const DeviationLimit& limit() const { return limit_; }
 
  private:
+  [[nodiscard]] std::optional<PolishOptions> parse_polish() const;
+
   CLI::App* app_ = nullptr;
   std::vector<const CLI::Option*> options_;
   MethodSpec method_;
   ProblemSpec problem_;
   RunOptions run_;
   DeviationLimit limit_;
+  std::string polish_ = "none";
+  PolishOptions polish_options_;
 };
 
 /// Reads the words of SmoothRun::words() into `run`. `app` is a fresh one that lives as long. Throws

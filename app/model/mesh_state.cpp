@@ -108,7 +108,7 @@ std::shared_ptr<const EnergyState> measure_energy(const SmoothingProblem& proble
       if (area_vector(x[0], x[1], x[2]).norm() > 0)
         value = evaluate_energy(x, problem.reference[static_cast<Index>(t)], problem.weights).energy;
       energy->values[t] = value;
-      if (problem.treated[t] != 0) sum += value;
+      if (problem.treated[t] != 0) sum += std::pow(value, problem.exponent);
     }
     sums[begin / kBlockSize] = sum;
   });

@@ -27,7 +27,7 @@ struct Geometry {
 /// The energy of a geometry under given settings.
 struct EnergyState {
   SmoothingSettings settings;
-  double total = 0;            ///< over the triangles that a run treats
+  double total = 0;            ///< sum of E^exponent over the triangles that a run treats
   std::vector<double> values;  ///< E of each triangle; infinite where it has no area
   ValueRange range;
 };

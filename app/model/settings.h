@@ -19,7 +19,7 @@ enum class FeatureRule : std::uint8_t { automatic, none, angle };
 /// What a run does. Every field has an option of `isorelax smooth`.
 struct SmoothingSettings {
   Solver solver = Solver::automatic;
-  double exponent = 1;  ///< p in the sum of E^p, 1..32
+  double exponent = 2;  ///< p in the sum of E^p, 1..32
   double mu_a = 0;      ///< weight of the area term, 0..1; the shape term has 1 - mu_a
   ReferenceKind reference = ReferenceKind::mean_area;
   double edge_length = 1;      ///< length units; used with ReferenceKind::edge_length
@@ -27,7 +27,7 @@ struct SmoothingSettings {
   BoundaryRule boundary = BoundaryRule::fixed;
   FeatureRule features = FeatureRule::automatic;
   double feature_deg = 30;  ///< used with FeatureRule::angle
-  unsigned iterations = 100;
+  unsigned iterations = 1000;
   double tolerance = 1e-6;  ///< relative; 0: only the iteration count stops the run
 
   bool operator==(const SmoothingSettings&) const = default;

@@ -23,9 +23,7 @@ class Baseline : public GuardedSmoother {
 
  protected:
   Baseline(const SmoothingProblem& problem, RecordDetail detail, BaselineGuard guard)
-      : GuardedSmoother(problem, detail, step_guard(guard)),
-        axes_(problem.vertex_count()),
-        norm_partials_(block_count(problem.vertex_count())) {}
+      : GuardedSmoother(problem, detail, step_guard(guard)), sweep_(problem), axes_(problem.vertex_count()) {}
 
   /// Looks at all triangles before any vertex is asked.
   virtual void prepare(std::span<const Vec3> /*x*/) {}
@@ -44,40 +42,21 @@ class Baseline : public GuardedSmoother {
 
   /// Gradients and tangent spaces of all vertices; the norm of the tangent gradient.
   double find_tangents(std::span<const Vec3> positions, const Objective& here, StepRecord& record) {
-    parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-      double squares = 0;
-      std::array<VertexSums, kLanes> sums;
-      for (std::size_t first = begin; first < end; first += kLanes) {
-        const std::size_t count = std::min<std::size_t>(kLanes, end - first);
-        for (std::size_t i = 0; i < count; ++i) sums[i] = here.gather(static_cast<Index>(first + i));
-        const auto axes =
-            tangent_axes(problem_, positions, static_cast<Index>(first), std::span(sums).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-          const std::size_t v = first + i;
-          axes_[v] = axes[i];
-          record.gradient[v] = sums[i].gradient;
-          squares += tangent_part(problem_.mobility[v], axes[i], sums[i].gradient).squaredNorm();
-        }
+    return sweep_.run(here, positions, [&](const TangentBatch& batch) {
+      for (unsigned i = 0; i < batch.count; ++i) {
+        axes_[batch.first + i] = batch.axes[i];
+        record.gradient[batch.first + i] = batch.sums[i].gradient;
       }
-      norm_partials_[begin / kBlockSize] = squares;
     });
-    double squares = 0;
-    for (const double partial : norm_partials_) squares += partial;
-    return std::sqrt(squares);
   }
 
   void move(std::span<const Vec3> x, Index v, StepRecord& record) const {
-    Vec3& d = record.displacement[v];
-    d.setZero();
-    if (problem_.mobility[v] == Mobility::none) return;
-    d = tangent_part(problem_.mobility[v], axes_[v], wish(x, v));
-    if (d.squaredNorm() > smallest_move() * smallest_move()) return;
-    d.setZero();
-    record.limits[v] |= kLimitConverged;
+    const bool free = problem_.mobility[v] != Mobility::none;
+    set_move(record, v, free ? tangent_part(problem_.mobility[v], axes_[v], wish(x, v)) : Vec3::Zero());
   }
 
+  TangentSweep sweep_;
   std::vector<Vec3> axes_;
-  std::vector<double> norm_partials_;
 };
 
 class Laplacian : public Baseline {

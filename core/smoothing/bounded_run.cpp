@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "quality/inverted.h"
+#include "quality/report.h"
 #include "smoothing/objective.h"
+#include "smoothing/polish.h"
 #include "surface/feature_edges.h"
 
 namespace isorelax {
@@ -132,15 +134,42 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 
 namespace {
 
+double mean_of_smallest_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                               unsigned threads) {
+  const Topology topology(triangles, static_cast<Index>(positions.size()));
+  return measure_quality(positions, triangles, topology, threads).mean_min_angle_deg;
+}
+
+/// The last stage, whose steps are counted on from `done`.
+RunResult run_polish(const SmoothingProblem& problem, std::span<Vec3> positions, const PolishOptions& options,
+                     unsigned done, const StepObserver& observer) {
+  // Ends by moving nothing: any tolerance that is not 0 will do.
+  return run(*make_polish(problem, options), problem, positions,
+             {.iterations = options.iterations, .tolerance = 1e-12},
+             [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+               return !observer || observer(done + iteration, record, moved);
+             });
+}
+
+/// What stays the same from one attempt to the next.
+struct Attempts {
+  std::span<const Triangle> triangles;
+  const SmootherFactory& make_smoother;
+  const RunOptions& run_options;
+  const DeviationLimit& limit;
+  const StepObserver& observer;
+  const std::optional<PolishOptions>& polish;
+};
+
 /// The smoothing part of run_bounded, with deviations measured against `surface`.
 BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
-                       std::span<const Triangle> triangles, const ProblemOptions& problem_options,
-                       const SmootherFactory& make_smoother, const RunOptions& run_options,
-                       const DeviationLimit& limit, const StepObserver& observer) {
+                       const ProblemOptions& problem_options, const Attempts& attempts) {
+  const std::span<const Triangle> triangles = attempts.triangles;
+  const StepObserver& observer = attempts.observer;
   const std::vector<Vec3> original(positions.begin(), positions.end());
   ProblemOptions options = problem_options;
   std::optional<std::vector<Index>> inverted_before;
-  std::optional<double> largest = limit.max;
+  std::optional<double> largest = attempts.limit.max;
   for (;;) {
     const SmoothingProblem problem = make_problem(original, triangles, options);
     if (!largest) largest = automatic_limit(original, problem, options);
@@ -149,11 +178,13 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.notes = problem.notes;
     result.limits = count_limits(problem.fixed_limits);
     result.run =
-        run_with_continuation(problem, make_smoother, positions, run_options,
+        run_with_continuation(problem, attempts.make_smoother, positions, attempts.run_options,
                               [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
                                 result.limits = count_limits(record.limits);
                                 return !observer || observer(iteration, record, moved);
                               });
+    if (attempts.polish && result.run.stopped != StopReason::cancelled)
+      result.polish = run_polish(problem, positions, *attempts.polish, result.run.iterations, observer);
     const DeviationByTriangle deviation =
         measure_deviation_by_triangle(surface, positions, triangles, problem.topology, options.threads);
     result.deviation = deviation.whole;
@@ -178,11 +209,29 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   }
 }
 
+/// `run_from` with the exponent asked for, or the better one of 2 and 1.
+BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const Vec3> surface,
+                                     const ProblemOptions& options, const Attempts& attempts) {
+  if (options.exponent) return run_from(positions, surface, options, attempts);
+  const std::vector<Vec3> original(positions.begin(), positions.end());
+  const double before = mean_of_smallest_angles(original, attempts.triangles, options.threads);
+  BoundedResult result = run_from(positions, surface, options, attempts);
+  const double after = mean_of_smallest_angles(positions, attempts.triangles, options.threads);
+  if (after >= before || result.run.stopped == StopReason::cancelled) return result;
+  ProblemOptions linear = options;
+  linear.exponent = 1;
+  std::copy(original.begin(), original.end(), positions.begin());
+  result = run_from(positions, surface, linear, attempts);
+  result.notes.emplace_back(
+      "the exponent is 1: with 2, the worst triangles would get better at the cost of all others");
+  return result;
+}
+
 /// Untangles, smooths from there, and measures against what came in.
-BoundedResult untangle_and_run(std::span<Vec3> positions, std::span<const Triangle> triangles,
-                               const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
-                               const RunOptions& run_options, const DeviationLimit& limit,
-                               const StepObserver& observer) {
+BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& problem_options,
+                               const Attempts& attempts) {
+  const std::span<const Triangle> triangles = attempts.triangles;
+  const DeviationLimit& limit = attempts.limit;
   const std::vector<Vec3> input(positions.begin(), positions.end());
   UntangleResult untangled = untangle_input(positions, triangles, problem_options);
   std::vector<std::string> notes = note_of(untangled);
@@ -197,8 +246,8 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, std::span<const Triang
   }
   const bool moved = !untangled.moved.empty();
   const std::vector<Vec3> start(positions.begin(), positions.end());
-  BoundedResult result = run_from(positions, limit.max ? input : start, triangles, problem_options,
-                                  make_smoother, run_options, limit, observer);
+  BoundedResult result =
+      run_with_some_exponent(positions, limit.max ? input : start, problem_options, attempts);
   // Triangles upside down in a plane cover what the sound ones cover as well.
   if (moved && !plane_normal(input, triangles, topology, problem_options.threads))
     result.deviation = deviation();
@@ -231,11 +280,12 @@ ProblemOptions scaled(ProblemOptions options, double factor) {
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer) {
+                          const StepObserver& observer, const std::optional<PolishOptions>& polish) {
   const double factor = scale_of(positions);
-  if (factor == 1)
-    return untangle_and_run(positions, triangles, problem_options, make_smoother, run_options, limit,
-                            observer);
+  if (factor == 1) {
+    return untangle_and_run(positions, problem_options,
+                            {triangles, make_smoother, run_options, limit, observer, polish});
+  }
   std::vector<Vec3> near_one(positions.begin(), positions.end());
   for (Vec3& p : near_one) p *= factor;
   const std::vector<Vec3> before = near_one;
@@ -247,8 +297,8 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
     for (Vec3& p : shown) p /= factor;
     return observer(iteration, record, shown);
   };
-  BoundedResult result = untangle_and_run(near_one, triangles, scaled(problem_options, factor), make_smoother,
-                                          run_options, limit, observe);
+  BoundedResult result = untangle_and_run(near_one, scaled(problem_options, factor),
+                                          {triangles, make_smoother, run_options, limit, observe, polish});
   for (Index v = 0; v < positions.size(); ++v)
     if (near_one[v] != before[v]) positions[v] = near_one[v] / factor;
   return result;

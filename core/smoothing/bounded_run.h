@@ -16,6 +16,15 @@ struct DeviationLimit {
   std::optional<double> max;
 };
 
+/// Options of the last stage, `make_polish`.
+struct PolishOptions {
+  /// The mean of the triangles' smallest angles falls by no more than this, in degrees.
+  double largest_mean_loss = 1;
+  /// What a degree between a largest angle and 180 counts, beside a degree of a smallest angle.
+  double obtuse_share = 0.45;
+  unsigned iterations = 300;
+};
+
 /// Makes the smoother for a problem.
 using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
 
@@ -28,6 +37,8 @@ struct BoundedResult {
   double deviation_limit = 0;  ///< the one that held, over the diagonal
   /// Limits of the last step, counted by bit.
   std::array<std::size_t, 8> limits{};
+  /// The last stage, if there was one.
+  std::optional<RunResult> polish;
   /// The problem's notes, and what the limit held.
   std::vector<std::string> notes;
 };
@@ -39,10 +50,12 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
                                 std::span<Vec3> positions, const RunOptions& options,
                                 const StepObserver& observer = {});
 
-/// Smooths a mesh in place and measures how far it is from where it was. Where a triangle is farther than the
-/// limit allows, its vertices are held where they were and the run is done again from the start, until the
-/// limit holds everywhere; in the end it always does, if with everything held. Likewise where a triangle lies
-/// upside down (inverted_triangles) that did not before. Throws as make_problem.
+/// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. Where a
+/// triangle is farther than the limit allows, its vertices are held where they were and the run is done again
+/// from the start, until the limit holds everywhere; in the end it always does, if with everything held.
+/// Likewise where a triangle lies upside down (inverted_triangles) that did not before. Where no exponent is
+/// asked for, it is 2, or 1 where that would lower the mean of the triangles' smallest angles. Throws as
+/// make_problem.
 ///
 /// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
 /// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of
@@ -51,6 +64,6 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer = {});
+                          const StepObserver& observer = {}, const std::optional<PolishOptions>& polish = {});
 
 }  // namespace isorelax

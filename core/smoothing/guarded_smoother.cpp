@@ -30,14 +30,19 @@ GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, RecordDetail d
       trial_(problem),
       fold_(problem) {}
 
-double GuardedSmoother::smallest_move() const {
-  return kConvergedMove * problem_.mean_edge_length;
+void GuardedSmoother::set_move(StepRecord& record, Index vertex, const Vec3& move) const {
+  record.displacement[vertex] = move;
+  const double small = kConvergedMove * problem_.mean_edge_length;
+  if (problem_.mobility[vertex] == Mobility::none || move.squaredNorm() > small * small) return;
+  record.displacement[vertex].setZero();
+  record.limits[vertex] |= kLimitConverged;
 }
 
 void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) {
   prepare(record);
   // A run asks for the positions that the guard of the step before evaluated: those sums are still at hand.
-  if (there_.is_at(positions)) {
+  continues_ = there_.is_at(positions);
+  if (continues_) {
     std::swap(here_, there_);
   } else if (!here_.is_at(positions)) {
     here_.evaluate(positions);

@@ -29,8 +29,11 @@ class GuardedSmoother : public Smoother {
   /// Whether a rising energy cuts back all vertices alike from the start, which keeps the direction.
   [[nodiscard]] virtual bool cuts_all_alike() const { return false; }
 
-  /// The move that is not worth making, in length units.
-  [[nodiscard]] double smallest_move() const;
+  /// Whether the positions of this step are those to which the step before led.
+  [[nodiscard]] bool continues() const { return continues_; }
+
+  /// Sets the proposed move of a vertex: none, and a note in the record, where it is not worth making.
+  void set_move(StepRecord& record, Index vertex, const Vec3& move) const;
 
   const SmoothingProblem& problem_;
 
@@ -44,6 +47,7 @@ class GuardedSmoother : public Smoother {
 
   RecordDetail detail_;
   StepGuard guard_;
+  bool continues_ = false;
   Objective here_, there_;  // at the step's positions, and at the last trial
   Trial trial_;
   FoldControl fold_;

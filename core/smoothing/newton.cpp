@@ -1,53 +1,60 @@
-#include <cmath>
-
-#include "mesh/parallel.h"
 #include "smoothing/guarded_smoother.h"
+#include "smoothing/local_minimum.h"
 #include "smoothing/newton_block.h"
-#include "smoothing/tangent.h"
 
 namespace isorelax {
 namespace {
+
+/// E over the sum of its weights from which a vertex goes to its own minimum instead of one Newton step: one
+/// step opens a sliver by a fraction only. Where all vertices did that, neighbours would swing about the
+/// minimum.
+constexpr double kNeedleEnergy = 7;
 
 class NewtonSmoother : public GuardedSmoother {
  public:
   NewtonSmoother(const SmoothingProblem& problem, const NewtonOptions& options)
       : GuardedSmoother(problem, options.detail),
-        relaxation_(options.relaxation),
-        norm_partials_(block_count(problem.vertex_count())) {}
+        options_(options),
+        needle_(kNeedleEnergy * (problem.weights.shape + problem.weights.area)),
+        sweep_(problem) {}
 
  private:
   double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) override {
-    const double small = smallest_move();
-    parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-      double squares = 0;
-      std::array<VertexSums, kLanes> sums;
-      for (std::size_t first = begin; first < end; first += kLanes) {
-        const std::size_t count = std::min<std::size_t>(kLanes, end - first);
-        for (std::size_t i = 0; i < count; ++i) sums[i] = here.gather(static_cast<Index>(first + i));
-        const auto axes =
-            tangent_axes(problem_, positions, static_cast<Index>(first), std::span(sums).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-          const Index v = static_cast<Index>(first + i);
-          const Vec3 tangent = tangent_part(problem_.mobility[v], axes[i], sums[i].gradient);
-          squares += tangent.squaredNorm();
-          record.gradient[v] = sums[i].gradient;
-          Vec3& d = record.displacement[v];
-          d = -relaxation_ * NewtonBlock(problem_, here, positions, v, axes[i]).solve(tangent);
-          if (problem_.mobility[v] != Mobility::none && d.squaredNorm() <= small * small) {
-            d.setZero();
-            record.limits[v] |= kLimitConverged;
-          }
+    if (!continues()) last_.clear();
+    const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {
+      const auto blocks = newton_blocks(problem_, here, batch);
+      for (unsigned i = 0; i < batch.count; ++i) {
+        const Index v = batch.first + i;
+        record.gradient[v] = batch.sums[i].gradient;
+        if (has_needle(here, v)) {
+          set_move(record, v,
+                   options_.relaxation * move_to_local_minimum(problem_, positions, v, batch.axes[i]));
+          continue;
         }
+        Vec3 d = -options_.relaxation * blocks[i].solve(batch.gradients[i]);
+        if (!last_.empty()) {
+          const Vec3 before = blocks[i].tangent(positions[v] - last_[v]);
+          if (before.dot(batch.gradients[i]) < 0) d += options_.momentum * before;
+        }
+        set_move(record, v, d);
       }
-      norm_partials_[begin / kBlockSize] = squares;
     });
-    double squares = 0;
-    for (const double partial : norm_partials_) squares += partial;
-    return std::sqrt(squares);
+    last_.assign(positions.begin(), positions.end());
+    return norm;
   }
 
-  double relaxation_;
-  std::vector<double> norm_partials_;
+  [[nodiscard]] bool has_needle(const Objective& here, Index vertex) const {
+    if (problem_.mobility[vertex] == Mobility::none) return false;
+    for (const Corner c : problem_.topology.corners_of(vertex)) {
+      if (here.energy(c / 3) > needle_) return true;
+    }
+    return false;
+  }
+
+  NewtonOptions options_;
+  double needle_;
+  TangentSweep sweep_;
+  std::vector<Vec3> last_;  // positions of the step before
 };
 
 }  // namespace

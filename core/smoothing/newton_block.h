@@ -1,26 +1,31 @@
 #pragma once
 
-#include "smoothing/objective.h"
+#include "smoothing/tangent.h"
 
 namespace isorelax {
 
+/// E over the sum of its weights, 2 for the best triangle, from which a triangle counts as a sliver.
+inline constexpr double kSliverEnergy = 3;
+
 /// One vertex' tangent Hessian block, made positive definite, ready to be solved with.
-class NewtonBlock {
- public:
-  /// Sums p E^(p-1) H + p (p-1) E^(p-2) g g^T over the vertex' triangles, with the clamped blocks H of method
-  /// Sec. 3, in the tangent space given by mobility and axis. `here` is evaluated at `positions`.
-  NewtonBlock(const SmoothingProblem& problem, const Objective& here, std::span<const Vec3> positions,
-              Index vertex, const Vec3& axis);
+struct NewtonBlock {
+  Vec3 t1 = Vec3::Zero(), t2 = Vec3::Zero();  ///< orthonormal; t2 zero on a line, both where nothing may move
+  double h11 = 0, h12 = 0, h22 = 0;
+
+  NewtonBlock() = default;
+  /// An empty block over the tangent space of this mobility and axis.
+  NewtonBlock(Mobility mobility, const Vec3& axis);
 
   /// Solves H d = g in the tangent space: g and the result are vectors in space. Zero where the block is.
   [[nodiscard]] Vec3 solve(const Vec3& g) const;
-
- private:
-  void add(const SmoothingProblem& problem, const Objective& here, std::span<const Vec3> positions,
-           Corner corner);
-
-  Vec3 t1_ = Vec3::Zero(), t2_ = Vec3::Zero();  // orthonormal; t2_ zero on a line
-  double h11_ = 0, h12_ = 0, h22_ = 0;
+  /// The part of a vector in the tangent space.
+  [[nodiscard]] Vec3 tangent(const Vec3& d) const { return t1 * t1.dot(d) + t2 * t2.dot(d); }
 };
+
+/// The blocks of a batch: sums of p E^(p-1) H + p (p-1) E^(p-2) g g^T over each vertex' triangles, with the
+/// clamped blocks H of method Sec. 3. `here` is what the batch was
+/// gathered from.
+std::array<NewtonBlock, kLanes> newton_blocks(const SmoothingProblem& problem, const Objective& here,
+                                              const TangentBatch& batch);
 
 }  // namespace isorelax

@@ -13,7 +13,7 @@ namespace {
 struct EnergyBatch {
   Lanes shape, area, powered;
   Lanes g0x, g0y, g0z, g1x, g1y, g1z;
-  Lanes mx, my, mz;
+  Lanes scale;           // 1 / sqrt(D2)
   Lanes s;               // 2 w_s / D2 times the derivative of E^p
   Lanes area_stiffness;  // what stands in for Eq. 9's denominator where there is no shape term
 };
@@ -41,15 +41,12 @@ template <bool kEquilateral>
     const double shape = weighted * inverse;
     const double root = std::sqrt(d2 * r.inverse_d1.at[i]);
     const double inverse_root = 1 / root;
-    const double scale = std::sqrt(inverse);
+    out.scale.at[i] = std::sqrt(inverse);
     out.shape.at[i] = shape;
     out.area.at[i] = root + inverse_root;
     out.s.at[i] = 2 * w.shape * inverse;
     out.area_stiffness.at[i] = area_only * inverse_root * inverse * inverse * (aa + bb + cc);
     t.at[i] = inverse * inverse * (0.5 * w.area * (root - inverse_root) - w.shape * shape);
-    out.mx.at[i] = nx * scale;
-    out.my.at[i] = ny * scale;
-    out.mz.at[i] = nz * scale;
     out.g0x.at[i] = nx;
     out.g0y.at[i] = ny;
     out.g0z.at[i] = nz;
@@ -143,11 +140,14 @@ void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& 
     shape_[t] = out.shape.at[i];
     area_[t] = out.area.at[i];
     powered_[t] = out.powered.at[i];
-    states_[t] = {out.g0x.at[i], out.g0y.at[i],
-                  out.g0z.at[i], out.g1x.at[i],
-                  out.g1y.at[i], out.g1z.at[i],
-                  out.mx.at[i],  out.my.at[i],
-                  out.mz.at[i],  2 * kEquilateralCot * out.s.at[i] + out.area_stiffness.at[i]};
+    states_[t] = {edges.e1x.at[i], edges.e1y.at[i],
+                  edges.e1z.at[i], edges.e2x.at[i],
+                  edges.e2y.at[i], edges.e2z.at[i],
+                  out.g0x.at[i],   out.g0y.at[i],
+                  out.g0z.at[i],   out.g1x.at[i],
+                  out.g1y.at[i],   out.g1z.at[i],
+                  out.scale.at[i], 2 * kEquilateralCot * out.s.at[i] + out.area_stiffness.at[i],
+                  out.shape.at[i], out.powered.at[i]};
     if (corner_stiffness_.empty()) continue;
     const double s = out.s.at[i];
     const double k = out.area_stiffness.at[i];
@@ -228,10 +228,23 @@ VertexSums Objective::gather_as(Index vertex) const {
       gx -= state.g0x + state.g1x, gy -= state.g0y + state.g1y, gz -= state.g0z + state.g1z;
     }
     sums.stiffness += kEquilateral ? state.stiffness : corner_stiffness_[t][i];
-    if constexpr (kCovariance) sums.covariance.add_outer(state.mx, state.my, state.mz);
+    if constexpr (kCovariance) {
+      const double nx = state.e1y * state.e2z - state.e1z * state.e2y;
+      const double ny = state.e1z * state.e2x - state.e1x * state.e2z;
+      const double nz = state.e1x * state.e2y - state.e1y * state.e2x;
+      sums.covariance.add_outer(nx * state.scale, ny * state.scale, nz * state.scale);
+    }
   }
   sums.gradient = {gx, gy, gz};
   return sums;
+}
+
+void Objective::prefetch(Index vertex) const {
+  for (const Corner c : problem_->topology.corners_of(vertex)) {
+    const TriangleState* state = &states_[c / 3];
+    __builtin_prefetch(state);
+    __builtin_prefetch(&state->g0z);
+  }
 }
 
 VertexSums Objective::gather(Index vertex) const {

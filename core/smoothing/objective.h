@@ -16,6 +16,15 @@ struct VertexSums {
   SymmetricMatrix covariance;  ///< sum of 2 area n n^T; left zero for planar problems
 };
 
+/// What is kept of a triangle at the last evaluation: two cache lines. All zero for untreated triangles.
+struct alignas(64) TriangleState {
+  double e1x, e1y, e1z, e2x, e2y, e2z;  ///< edges from vertex 0 to vertices 1 and 2
+  double g0x, g0y, g0z, g1x, g1y, g1z;  ///< gradients of E^p at corners 0 and 1; corner 2 has minus their sum
+  double scale;                         ///< 1 / sqrt(D2)
+  double stiffness;       ///< s_{i+} + s_{i-} times the derivative of E^p where it is the same at all corners
+  double shape, powered;  ///< K and E^p
+};
+
 /// Value and gradient of sum E^p over the treated triangles at one set of positions.
 ///
 /// Two passes: `evaluate` runs once over the triangles and keeps a few numbers of each, `gather` sums them
@@ -41,6 +50,11 @@ class Objective {
   /// Sums around a vertex at the positions of the last evaluation.
   [[nodiscard]] VertexSums gather(Index vertex) const;
 
+  /// Per triangle, at the last evaluation.
+  [[nodiscard]] const TriangleState& state(Index t) const { return states_[t]; }
+  /// Asks for the states around a vertex that will be needed soon.
+  void prefetch(Index vertex) const;
+
   /// Per triangle, at the last evaluation; 0 for untreated triangles.
   [[nodiscard]] std::span<const double> shape() const { return shape_; }
   [[nodiscard]] std::span<const double> area() const { return area_; }
@@ -52,12 +66,6 @@ class Objective {
   }
 
  private:
-  /// Gradients of E^p at corners 0 and 1 (corner 2 has minus their sum), N / sqrt(D2), and s_{i+} + s_{i-}
-  /// times the derivative of E^p where it is the same at all corners.
-  struct TriangleState {
-    double g0x, g0y, g0z, g1x, g1y, g1z, mx, my, mz, stiffness;
-  };
-
   void evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids);
   void sum_block(std::size_t block);
   void sum_blocks();

@@ -295,7 +295,7 @@ void check(const ProblemOptions& options) {
   if (!(w.shape >= 0) || !(w.area >= 0) || !(w.shape + w.area > 0) || !std::isfinite(w.shape + w.area)) {
     throw UsageError("the weights must be finite, not negative, and not both zero");
   }
-  if (!(options.exponent >= 1) || !(options.exponent <= 64))
+  if (options.exponent && (!(*options.exponent >= 1) || !(*options.exponent <= 64)))
     throw UsageError("the exponent must be from 1 to 64");
 }
 
@@ -312,7 +312,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .topology = std::move(topology),
                            .reference = make_reference(options.reference, positions, triangles),
                            .weights = options.weights,
-                           .exponent = options.exponent,
+                           .exponent = options.exponent.value_or(kDefaultExponent),
                            .classes = std::move(classes),
                            .mobility = {},
                            .fixed_limits = {},

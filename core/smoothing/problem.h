@@ -59,11 +59,15 @@ using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, Ini
 [[nodiscard]] ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
                                            std::span<const Triangle> triangles);
 
+/// The exponent where none is asked for.
+inline constexpr double kDefaultExponent = 2;
+
 /// What is minimised and what may move.
 struct ProblemOptions {
   EnergyWeights weights;
-  /// p >= 1 in sum E^p: larger values drive the worst triangles.
-  double exponent = 1;
+  /// p >= 1 in sum E^p: larger values drive the worst triangles. None: 2; a bounded run takes 1 where squares
+  /// lower the mean of the triangles' smallest angles.
+  std::optional<double> exponent;
   ReferenceChoice reference = MeanAreaReference{};
   BoundaryRule boundary = BoundaryRule::fixed;
   FeatureOptions features;
@@ -87,7 +91,7 @@ struct SmoothingProblem {
   Topology topology;
   ReferenceMesh reference;
   EnergyWeights weights;
-  double exponent = 1;
+  double exponent = kDefaultExponent;
   VertexClasses classes;
   std::vector<Mobility> mobility;
   std::vector<std::uint16_t>

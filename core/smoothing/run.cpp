@@ -11,9 +11,13 @@ namespace {
 /// Largest move, in mean edges, of a mesh that may count as converged by its gradient.
 constexpr double kSettled = 1e-3;
 
+/// Steps in a row that have to gain next to nothing: a single one may have been cut back.
+constexpr unsigned kIdleSteps = 5;
+
 /// The stop that the last record asks for, if any.
 std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord& record,
-                                     const RunResult& result, const RunOptions& options) {
+                                     const RunResult& result, const RunOptions& options,
+                                     unsigned idle_steps) {
   if (!(options.tolerance > 0)) return std::nullopt;
   if (!smoother.descends()) {
     return result.relative_move <= options.tolerance ? std::optional(StopReason::movement) : std::nullopt;
@@ -24,7 +28,7 @@ std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord&
     return StopReason::gradient;
   if (record.moved == 0) return record.energy_passes > 0 ? StopReason::stalled : StopReason::movement;
   if (result.relative_move <= options.tolerance) return StopReason::movement;
-  if (result.energy_change <= options.tolerance * 1e-3) return StopReason::energy;
+  if (idle_steps >= kIdleSteps) return StopReason::energy;
   return std::nullopt;
 }
 
@@ -79,6 +83,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
   if (!any_free) result.stopped = StopReason::fixed;
   StepRecord record;
   double first_gradient = 0;
+  unsigned idle_steps = 0;
   for (unsigned i = 0; any_free && i < options.iterations; ++i) {
     smoother.step(positions, record);
     apply_step(record, positions);
@@ -90,12 +95,13 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
     result.after = record.after;
     result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
     result.energy_change = (record.before.energy - record.after.energy) / record.before.energy;
+    idle_steps = result.energy_change <= options.tolerance ? idle_steps + 1 : 0;
     result.relative_move = record.largest_move / problem.mean_edge_length;
     if (observer && !observer(result.iterations, record, positions)) {
       result.stopped = StopReason::cancelled;
       break;
     }
-    if (const auto stop = stop_after(smoother, record, result, options)) {
+    if (const auto stop = stop_after(smoother, record, result, options, idle_steps)) {
       result.stopped = *stop;
       break;
     }

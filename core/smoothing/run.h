@@ -37,11 +37,15 @@ std::unique_ptr<Smoother> make_jacobi(const SmoothingProblem& problem, const Jac
 struct NewtonOptions {
   /// Factor on each vertex' own Newton step: at 1 neighbours that move at once overshoot.
   double relaxation = 0.7;
+  /// Share of the vertex' last move that is added to its step where that still leads downhill: what one
+  /// vertex learns of those far away comes through its neighbours, and this carries it on.
+  double momentum = 0.6;
   RecordDetail detail = RecordDetail::vertices;
 };
 
 /// Every vertex takes a damped Newton step of its own in its tangent space, with the second derivatives of
-/// its triangles made positive definite (method Sec. 6). Keeps a reference to the problem.
+/// its triangles made positive definite (method Sec. 6); at slivers several, to the minimum of its own
+/// triangles. Keeps a reference to the problem.
 std::unique_ptr<Smoother> make_newton(const SmoothingProblem& problem, const NewtonOptions& options = {});
 
 /// Options of L-BFGS.
@@ -83,9 +87,10 @@ std::string_view to_string(StopReason reason);
 std::string_view name_of(StopReason reason);
 
 struct RunOptions {
-  unsigned iterations = 100;
+  unsigned iterations = 1000;
   /// Relative threshold of all three tests: gradient norm against its start, energy decrease against the
-  /// energy, largest move against the mean edge length. 0: only the iteration count stops the run.
+  /// energy in five steps in a row, largest move against the mean edge length. 0: only the iteration count
+  /// stops the run.
   double tolerance = 1e-6;
 };
 

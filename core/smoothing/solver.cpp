@@ -1,26 +1,39 @@
 #include "smoothing/run.h"
 
+#include <algorithm>
+
 namespace isorelax {
 namespace {
 
-/// Newton steps untangle the worst places fast, each vertex at its own pace; once a step gains less than this
-/// share of the energy, L-BFGS converges faster.
+/// Newton steps open the worst places fast, each vertex at its own pace; once none is left that bad (E over
+/// the sum of the weights), a step gains less than this share of the energy, L-BFGS converges faster. While
+/// one is left, less will do.
+constexpr double kBadEnergy = 7;
 constexpr double kWorthwhileGain = 0.01;
+constexpr double kLeastGain = 0.002;
 
 class AutomaticSmoother : public Smoother {
  public:
   AutomaticSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : newton_(make_smoother(problem, Solver::newton, detail)),
+      : bad_(kBadEnergy * (problem.weights.shape + problem.weights.area)),
+        newton_(make_smoother(problem, Solver::newton, detail)),
         lbfgs_(make_smoother(problem, Solver::lbfgs, detail)) {}
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
-    if (converging_) return lbfgs_->step(positions, record);
-    newton_->step(positions, record);
-    converging_ = record.before.energy - record.after.energy < kWorthwhileGain * record.before.energy;
+    // Elsewhere than the last step led, everything starts anew.
+    if (!std::ranges::equal(positions, led_to_)) converging_ = false;
+    (converging_ ? lbfgs_ : newton_)->step(positions, record);
+    led_to_.assign(positions.begin(), positions.end());
+    apply_step(record, led_to_);
+    if (converging_) return;
+    const double gain = (record.before.energy - record.after.energy) / record.before.energy;
+    converging_ = gain < (record.after.worst_energy > bad_ ? kLeastGain : kWorthwhileGain);
   }
 
  private:
+  double bad_;
   std::unique_ptr<Smoother> newton_, lbfgs_;
+  std::vector<Vec3> led_to_;
   bool converging_ = false;
 };
 

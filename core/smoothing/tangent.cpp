@@ -1,5 +1,7 @@
 #include "smoothing/tangent.h"
 
+#include <algorithm>
+
 namespace isorelax {
 namespace {
 
@@ -22,26 +24,49 @@ bool follows_surface(const SmoothingProblem& problem, Index vertex) {
 
 }  // namespace
 
-std::array<Vec3, kLanes> tangent_axes(const SmoothingProblem& problem, std::span<const Vec3> positions,
-                                      Index first, std::span<const VertexSums> sums) {
-  std::array<Vec3, kLanes> axes;
-  if (problem.plane_normal) {
-    axes.fill(*problem.plane_normal);
-  } else if (!problem.surface) {
-    CovarianceBatch batch{};
-    for (unsigned i = 0; i < sums.size(); ++i) batch.set(i, sums[i].covariance);
-    axes = dominant_eigenvectors(batch);
+Vec3 tangent_axis(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex) {
+  if (follows_surface(problem, vertex)) {
+    return problem.surface->tangent_axis(positions[vertex], class_on_surface(problem, vertex),
+                                         problem.surface->anchor(vertex));
   }
-  for (unsigned i = 0; i < sums.size(); ++i) {
-    const Index v = first + i;
-    if (follows_surface(problem, v)) {
-      axes[i] = problem.surface->tangent_axis(positions[v], class_on_surface(problem, v),
-                                              problem.surface->anchor(v));
-    } else if (problem.mobility[v] == Mobility::line) {
-      axes[i] = line_direction(problem, positions, v, sums[i].covariance);
+  const bool on_line = problem.mobility[vertex] == Mobility::line;
+  if (problem.plane_normal && !on_line) return *problem.plane_normal;
+  const SymmetricMatrix covariance =
+      normal_covariance(positions, problem.triangles, problem.topology, vertex);
+  return on_line ? line_direction(problem, positions, vertex, covariance)
+                 : Vec3(decompose(covariance).vectors.col(0));
+}
+
+void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const {
+  const Index end = std::min(batch.first + 2 * kLanes, problem_.vertex_count());
+  for (Index next = batch.first + kLanes; next < end; ++next) here.prefetch(next);
+  for (unsigned i = 0; i < batch.count; ++i) batch.sums[i] = here.gather(batch.first + i);
+  if (problem_.plane_normal) {
+    batch.axes.fill(*problem_.plane_normal);
+  } else if (!problem_.surface) {
+    CovarianceBatch covariances{};
+    for (unsigned i = 0; i < batch.count; ++i) covariances.set(i, batch.sums[i].covariance);
+    batch.axes = dominant_eigenvectors(covariances);
+  } else {
+    batch.axes.fill(Vec3::Zero());
+  }
+  for (unsigned i = 0; i < batch.count; ++i) {
+    const Index v = batch.first + i;
+    const Mobility mobility = problem_.mobility[v];
+    if (follows_surface(problem_, v)) {
+      batch.axes[i] = problem_.surface->tangent_axis(positions[v], class_on_surface(problem_, v),
+                                                     problem_.surface->anchor(v));
+    } else if (mobility == Mobility::line) {
+      batch.axes[i] = line_direction(problem_, positions, v, batch.sums[i].covariance);
     }
+    batch.gradients[i] = tangent_part(mobility, batch.axes[i], batch.sums[i].gradient);
   }
-  return axes;
+}
+
+double TangentSweep::norm() const {
+  double squares = 0;
+  for (const double partial : partials_) squares += partial;
+  return std::sqrt(squares);
 }
 
 }  // namespace isorelax

@@ -7,6 +7,13 @@
 
 namespace isorelax {
 
+Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target) {
+  if (!problem.surface) return target;
+  // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
+  return problem.surface->project(target, class_on_surface(problem, vertex), problem.surface->anchor(vertex))
+      .point;
+}
+
 void Trial::start(std::span<const Vec3> from, StepRecord& record) {
   from_ = from;
   to_.resize(from.size());
@@ -21,12 +28,7 @@ void Trial::start(std::span<const Vec3> from, StepRecord& record) {
 void Trial::place(StepRecord& record, Index vertex) {
   const double alpha = record.alpha[vertex];
   if (problem_.surface && alpha > 0 && !tangent_[vertex].isZero(0)) {
-    // The walk starts where the vertex was at the start of the run: the point does not depend on the way
-    // there.
-    const Vec3 target = problem_.surface
-                            ->project(from_[vertex] + alpha * tangent_[vertex],
-                                      class_on_surface(problem_, vertex), problem_.surface->anchor(vertex))
-                            .point;
+    const Vec3 target = bring_back(problem_, vertex, from_[vertex] + alpha * tangent_[vertex]);
     record.displacement[vertex] = (target - from_[vertex]) / alpha;
   }
   to_[vertex] = from_[vertex] + alpha * record.displacement[vertex];

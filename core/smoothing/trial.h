@@ -8,6 +8,9 @@
 
 namespace isorelax {
 
+/// Where a vertex ends that is sent to `target`: there, or on the frozen surface near it if there is one.
+[[nodiscard]] Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target);
+
 /// Where a record's accepted moves lead: x + alpha * displacement for every vertex, kept up to date while
 /// alphas are cut back, together with the triangles that this touched.
 class Trial {

@@ -10,7 +10,7 @@
 #include "quality/report.h"
 #include "smoothing/bounded_run.h"
 
-// Smooths real meshes as `isorelax smooth IN -o OUT` does when it is told nothing else, and asks what anybody
+// Smooths real meshes as `isorelax smooth IN -o OUT --iterations 100` does, and asks what anybody
 // who smooths a mesh would ask.
 
 namespace isorelax {

@@ -101,7 +101,7 @@ TEST(JacobiStep, IsEquation9WhereNothingLimitsIt) {
     x.emplace_back(std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0);
     triangles.push_back({0, k + 1, (k + 1) % 6 + 1});
   }
-  const SmoothingProblem problem = make_problem(x, triangles, {.weights = {0.8, 0.2}});
+  const SmoothingProblem problem = make_problem(x, triangles, {.weights = {0.8, 0.2}, .exponent = 1});
   StepRecord record;
   make_jacobi(problem, {.relaxation = 0.5})->step(x, record);
   Vec3 gradient = Vec3::Zero();

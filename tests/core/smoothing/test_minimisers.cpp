@@ -46,7 +46,7 @@ double energy_of(std::span<const Vec3> x, std::span<const Triangle> triangles,
   for (Index t = 0; t < triangles.size(); ++t) {
     const Triangle& v = triangles[t];
     sum += std::pow(evaluate_energy({x[v[0]], x[v[1]], x[v[2]]}, reference[t], options.weights).energy,
-                    options.exponent);
+                    options.exponent.value_or(kDefaultExponent));
   }
   return sum;
 }

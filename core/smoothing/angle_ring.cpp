@@ -1,0 +1,127 @@
+#include "smoothing/angle_ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isorelax {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+/// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
+/// degrees.
+constexpr double kLeastCosine = 0.5;
+
+double angle_between(const Vec3& u, const Vec3& v) {
+  return kDegrees * std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+}  // namespace
+
+AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double at_a = angle_between(b - a, c - a);
+  const double at_b = angle_between(c - b, a - b);
+  const double at_c = 180 - at_a - at_b;
+  return {std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c})};
+}
+
+void AngleRing::look_at(std::span<const Vec3> positions, Index vertex) {
+  triangles_.clear();
+  sides_.clear();
+  for (const Corner c : problem_.topology.corners_of(vertex)) {
+    if (problem_.treated[c / 3] == 0) continue;
+    const Triangle& t = problem_.triangles[c / 3];
+    const Vec3& a = positions[t[next(c % 3)]];
+    const Vec3& b = positions[t[previous(c % 3)]];
+    triangles_.push_back(c / 3);
+    sides_.push_back({a, b, area_vector(positions[vertex], a, b)});
+  }
+}
+
+std::span<const AngleRange> AngleRing::ranges(const Vec3& at) {
+  ranges_.clear();
+  for (const Side& side : sides_) {
+    const auto a = angles(side, at, nullptr);
+    ranges_.push_back({std::min({a[0], a[1], a[2]}), std::max({a[0], a[1], a[2]})});
+  }
+  return ranges_;
+}
+
+bool AngleRing::is_upright(const Vec3& at) const {
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const Vec3 area = area_vector(at, sides_[i].a, sides_[i].b);
+    if (!(area.dot(sides_[i].normal) > 0)) return false;
+    if (problem_.initial_normals.empty()) continue;
+    const double along = area.dot(problem_.initial_normals[triangles_[i]]);
+    if (!(along > 0 && along * along > kLeastCosine * kLeastCosine * area.squaredNorm())) return false;
+  }
+  return true;
+}
+
+std::array<double, 3> AngleRing::angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients) {
+  const Vec3 to_a = side.a - at;
+  const Vec3 to_b = side.b - at;
+  const Vec3 ab = side.b - side.a;
+  const Vec3 normal = to_a.cross(to_b);
+  const double length = normal.norm();
+  const double at_a = kDegrees * std::atan2(length, -to_a.dot(ab));
+  const double at_b = kDegrees * std::atan2(length, to_b.dot(ab));
+  if (gradients != nullptr) {
+    const Vec3 n = normal * (kDegrees / length);
+    // Turning the ray from a to the vertex about the normal opens the angle at a; at b it closes it.
+    const Vec3 ga = -n.cross(to_a) / to_a.squaredNorm();
+    const Vec3 gb = n.cross(to_b) / to_b.squaredNorm();
+    *gradients = {-ga - gb, ga, gb};
+  }
+  return {180 - at_a - at_b, at_a, at_b};
+}
+
+/// All scores of the ring, and their gradients if asked for.
+void AngleRing::collect(const Vec3& at, std::vector<Vec3>* gradients) {
+  scores_.clear();
+  if (gradients != nullptr) gradients->clear();
+  std::array<Vec3, 3> g;
+  for (const Side& side : sides_) {
+    const auto a = angles(side, at, gradients != nullptr ? &g : nullptr);
+    for (unsigned k = 0; k < 3; ++k) {
+      scores_.push_back(a[k]);
+      scores_.push_back(obtuse_share_ * (180 - a[k]));
+      if (gradients == nullptr) continue;
+      gradients->push_back(g[k]);
+      gradients->push_back(-obtuse_share_ * g[k]);
+    }
+  }
+}
+
+double AngleRing::soft_value(const Vec3& at, double sharpness) {
+  collect(at, nullptr);
+  const double least = *std::min_element(scores_.begin(), scores_.end());
+  double sum = 0;
+  for (const double s : scores_) sum += std::exp(-sharpness * (s - least));
+  return least - std::log(sum) / sharpness;
+}
+
+AngleRing::Soft AngleRing::soft(const Vec3& at, double sharpness) {
+  collect(at, &gradients_);
+  const double least = *std::min_element(scores_.begin(), scores_.end());
+  double sum = 0;
+  Vec3 mean = Vec3::Zero();
+  Mat3 squares = Mat3::Zero();
+  for (std::size_t i = 0; i < scores_.size(); ++i) {
+    const double weight = std::exp(-sharpness * (scores_[i] - least));
+    sum += weight;
+    mean += weight * gradients_[i];
+    squares += weight * gradients_[i] * gradients_[i].transpose();
+  }
+  mean /= sum;
+  return {least - std::log(sum) / sharpness, mean, sharpness * (squares / sum - mean * mean.transpose())};
+}
+
+double AngleRing::shortest_edge(const Vec3& at) const {
+  double squared = INFINITY;
+  for (const Side& side : sides_)
+    squared = std::min({squared, (side.a - at).squaredNorm(), (side.b - at).squaredNorm()});
+  return std::sqrt(squared);
+}
+
+}  // namespace isorelax

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "smoothing/problem.h"
+
+namespace isorelax {
+
+/// The extreme angles of a triangle, in degrees.
+struct AngleRange {
+  double min, max;
+};
+AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// What is to be raised: the lesser of the smallest angle and obtuse_share * (180 - the largest).
+inline double angle_score(const AngleRange& r, double obtuse_share) {
+  return std::min(r.min, obtuse_share * (180 - r.max));
+}
+
+/// The triangles around one vertex as functions of where it is, its neighbours held.
+class AngleRing {
+ public:
+  /// A soft minimum -1/b log sum exp(-b s) of scores s in degrees, and what a step towards a higher one
+  /// needs.
+  struct Soft {
+    double value;
+    Vec3 gradient;  ///< degrees per length
+    Mat3
+        spread;  ///< b times the covariance of the scores' gradients: minus the second derivative's main part
+  };
+
+  AngleRing(const SmoothingProblem& problem, double obtuse_share)
+      : problem_(problem), obtuse_share_(obtuse_share) {}
+
+  /// Looks at the treated triangles around a vertex from now on.
+  void look_at(std::span<const Vec3> positions, Index vertex);
+  /// The triangles' numbers, and as many AngleRanges with the vertex at `at`.
+  [[nodiscard]] std::span<const Index> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const AngleRange> ranges(const Vec3& at);
+
+  /// Whether no triangle turns over when the vertex goes to `at`.
+  [[nodiscard]] bool is_upright(const Vec3& at) const;
+  [[nodiscard]] double soft_value(const Vec3& at, double sharpness);
+  [[nodiscard]] Soft soft(const Vec3& at, double sharpness);
+  /// Length of the shortest edge at the vertex.
+  [[nodiscard]] double shortest_edge(const Vec3& at) const;
+
+ private:
+  struct Side {
+    Vec3 a, b;    // the next and the previous vertex
+    Vec3 normal;  // area vector where the vertex was
+  };
+  /// Angles in degrees at the vertex, at a and at b, and optionally their gradients.
+  static std::array<double, 3> angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients);
+  void collect(const Vec3& at, std::vector<Vec3>* gradients);
+
+  const SmoothingProblem& problem_;
+  double obtuse_share_;
+  std::vector<Index> triangles_;
+  std::vector<Side> sides_;
+  std::vector<double> scores_;
+  std::vector<Vec3> gradients_;
+  std::vector<AngleRange> ranges_;
+};
+
+}  // namespace isorelax

@@ -1,0 +1,90 @@
+#include "smoothing/local_minimum.h"
+
+#include <cmath>
+
+#include "smoothing/newton_block.h"
+
+namespace isorelax {
+namespace {
+
+constexpr unsigned kMaxSteps = 8;
+constexpr unsigned kMaxHalvings = 6;
+/// A step that gains less than this share of the sum is the last.
+constexpr double kWorthwhileGain = 0.03;
+
+/// The triangles at a vertex, as functions of where it is.
+class Ring {
+ public:
+  Ring(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex, const Vec3& axis)
+      : p_(problem), x_(positions), v_(vertex), axis_(axis) {}
+
+  /// Sum of E^p with the vertex at `at`; infinite where a triangle has left the side it is on now.
+  [[nodiscard]] double energy(const Vec3& at) const {
+    double sum = 0;
+    for (const Corner c : p_.topology.corners_of(v_)) {
+      if (p_.treated[c / 3] == 0) continue;
+      const auto x = corners(c, at);
+      const auto was = corners(c, x_[v_]);
+      if (!(area_vector(x[0], x[1], x[2]).dot(area_vector(was[0], was[1], was[2])) > 0)) return INFINITY;
+      sum += std::pow(evaluate_energy(x, p_.reference[c / 3], p_.weights).energy, p_.exponent);
+    }
+    return sum;
+  }
+
+  /// Newton's step from `at`.
+  [[nodiscard]] Vec3 step(const Vec3& at) const {
+    Vec3 gradient = Vec3::Zero();
+    NewtonBlock block(p_.mobility[v_], axis_);
+    for (const Corner c : p_.topology.corners_of(v_)) {
+      if (p_.treated[c / 3] == 0) continue;
+      const auto x = corners(c, at);
+      const ReferenceTriangle reference = p_.reference[c / 3];
+      const double energy = evaluate_energy(x, reference, p_.weights).energy;
+      const double factor = p_.exponent * std::pow(energy, p_.exponent - 1);
+      gradient += factor * energy_gradient(x, reference, p_.weights)[c % 3];
+      const Mat3 h = factor * energy_hessian_block_psd(x, c % 3, reference, p_.weights);
+      block.h11 += block.t1.dot(h * block.t1);
+      block.h12 += block.t1.dot(h * block.t2);
+      block.h22 += block.t2.dot(h * block.t2);
+    }
+    return -block.solve(gradient);
+  }
+
+ private:
+  [[nodiscard]] std::array<Vec3, 3> corners(Corner c, const Vec3& at) const {
+    const Triangle& t = p_.triangles[c / 3];
+    std::array<Vec3, 3> x{x_[t[0]], x_[t[1]], x_[t[2]]};
+    x[c % 3] = at;
+    return x;
+  }
+
+  const SmoothingProblem& p_;
+  std::span<const Vec3> x_;
+  Index v_;
+  Vec3 axis_;
+};
+
+}  // namespace
+
+Vec3 move_to_local_minimum(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex,
+                           const Vec3& axis) {
+  const Ring ring(problem, positions, vertex, axis);
+  Vec3 at = positions[vertex];
+  double energy = ring.energy(at);
+  for (unsigned i = 0; i < kMaxSteps; ++i) {
+    Vec3 d = ring.step(at);
+    double lower = ring.energy(at + d);
+    for (unsigned k = 0; k < kMaxHalvings && !(lower < energy); ++k) {
+      d *= 0.5;
+      lower = ring.energy(at + d);
+    }
+    if (!(lower < energy)) break;
+    at += d;
+    const bool last = energy - lower < kWorthwhileGain * energy;
+    energy = lower;
+    if (last) break;
+  }
+  return at - positions[vertex];
+}
+
+}  // namespace isorelax

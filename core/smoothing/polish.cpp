@@ -1,0 +1,226 @@
+#include "smoothing/polish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "smoothing/angle_ring.h"
+#include "smoothing/newton_block.h"
+#include "smoothing/tangent.h"
+#include "smoothing/trial.h"
+
+namespace isorelax {
+namespace {
+
+/// Sharpness of the soft minimum, per degree, stage by stage.
+constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0};
+/// A stage ends after this many steps, or when in this many in a row no vertex moves by more than kIdleMove
+/// mean edges and the worst score rises by less than kGain degrees.
+constexpr unsigned kStageSteps = 60;
+constexpr unsigned kIdleSteps = 5;
+constexpr double kIdleMove = 1e-3;
+constexpr double kGain = 0.005;
+/// Triangles within this many degrees of the worst score are treated; halved where the mean would fall too
+/// far, down to the least.
+constexpr double kWindow = 5;
+constexpr double kLeastWindow = 0.5;
+/// A visit moves a vertex at most this share of its shortest edge at a time.
+constexpr double kReach = 0.2;
+constexpr unsigned kStepsPerVisit = 2;
+constexpr unsigned kMaxHalvings = 5;
+
+class PolishSmoother : public Smoother {
+ public:
+  PolishSmoother(const SmoothingProblem& problem, const PolishOptions& options)
+      : problem_(problem),
+        options_(options),
+        ring_(problem, options.obtuse_share),
+        objective_(problem),
+        ranges_(problem.triangle_count()) {}
+
+  [[nodiscard]] bool descends() const override { return false; }
+
+  void step(std::span<const Vec3> positions, StepRecord& record) override {
+    prepare(positions, record);
+    record.before = objective_.evaluate(positions);
+    while (stage_ < kSharpness.size() && !sweep(positions)) measure();
+    finish(positions, record);
+  }
+
+ private:
+  void prepare(std::span<const Vec3> positions, StepRecord& record) {
+    const std::size_t n = problem_.vertex_count();
+    record.gradient.assign(n, Vec3::Zero());
+    record.displacement.assign(n, Vec3::Zero());
+    record.alpha.assign(n, 1);
+    record.limits = problem_.fixed_limits;
+    record.tangent_class = problem_.classes.classes;
+    record.fold_passes = record.energy_passes = 0;
+    x_.assign(positions.begin(), positions.end());
+    measure();
+    if (started_) return;
+    started_ = true;
+    floor_ = worst_;
+    mean_ = mean();
+  }
+
+  /// Extreme angles of all treated triangles, and the mesh' worst.
+  void measure() {
+    parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Triangle& v = problem_.triangles[t];
+        if (problem_.treated[t] != 0) ranges_[t] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
+      }
+    });
+    find_worst();
+  }
+
+  void find_worst() {
+    worst_ = {180, 0};
+    for (Index t = 0; t < problem_.triangle_count(); ++t) {
+      if (problem_.treated[t] == 0) continue;
+      worst_.min = std::min(worst_.min, ranges_[t].min);
+      worst_.max = std::max(worst_.max, ranges_[t].max);
+    }
+  }
+
+  [[nodiscard]] double score(Index t) const { return angle_score(ranges_[t], options_.obtuse_share); }
+  [[nodiscard]] double worst_score() const { return angle_score(worst_, options_.obtuse_share); }
+
+  [[nodiscard]] double mean() const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (Index t = 0; t < problem_.triangle_count(); ++t) {
+      if (problem_.treated[t] == 0) continue;
+      sum += ranges_[t].min;
+      ++count;
+    }
+    return sum / static_cast<double>(count);
+  }
+
+  /// Free vertices of the triangles to be treated, those of the worst triangles first.
+  [[nodiscard]] std::vector<Index> vertices_in_order() const {
+    const double level = worst_score() + window_;
+    std::vector<std::pair<double, Index>> scored;
+    for (Index t = 0; t < problem_.triangle_count(); ++t) {
+      if (problem_.treated[t] == 0 || score(t) > level) continue;
+      for (const Index v : problem_.triangles[t])
+        if (problem_.mobility[v] != Mobility::none) scored.emplace_back(score(t), v);
+    }
+    std::sort(scored.begin(), scored.end());
+    std::vector<Index> order;
+    std::vector<std::uint8_t> seen(problem_.vertex_count(), 0);
+    for (const auto& [score, v] : scored) {
+      if (seen[v] == 0) order.push_back(v);
+      seen[v] = 1;
+    }
+    return order;
+  }
+
+  /// Visits all vertices to be treated once. False if that came to nothing, and another stage or fewer
+  /// triangles are next.
+  bool sweep(std::span<const Vec3> positions) {
+    const double before = worst_score();
+    double largest = 0;
+    for (const Index v : vertices_in_order()) largest = std::max(largest, visit(v));
+    find_worst();
+    if (mean_ - mean() > options_.largest_mean_loss) {
+      // Back to where the step began, and on with fewer triangles.
+      x_.assign(positions.begin(), positions.end());
+      window_ /= 2;
+      if (window_ < kLeastWindow) stage_ = kSharpness.size();
+      return false;
+    }
+    const bool idle = largest < kIdleMove * problem_.mean_edge_length && worst_score() < before + kGain;
+    idle_ = idle ? idle_ + 1 : 0;
+    if (largest > 0 && ++steps_ < kStageSteps && idle_ < kIdleSteps) return true;
+    ++stage_;
+    steps_ = idle_ = 0;
+    return largest > 0;
+  }
+
+  /// Moves a vertex to where the triangles around it are better, if it can. Returns how far.
+  double visit(Index v) {
+    ring_.look_at(x_, v);
+    Vec3 at = x_[v];
+    double value = ring_.soft_value(at, kSharpness[stage_]);
+    for (unsigned i = 0; i < kStepsPerVisit; ++i) {
+      Vec3 d = ascent(v, at);
+      bool higher = false;
+      for (unsigned k = 0; k <= kMaxHalvings && !higher; ++k, d *= 0.5) {
+        const Vec3 there = bring_back(problem_, v, at + d);
+        if (!ring_.is_upright(there)) continue;
+        const double raised = ring_.soft_value(there, kSharpness[stage_]);
+        if (!(raised > value) || !keeps_floor(there)) continue;
+        higher = true;
+        at = there;
+        value = raised;
+      }
+      if (!higher) break;
+    }
+    if (at == x_[v]) return 0;
+    const double distance = (at - x_[v]).norm();
+    x_[v] = at;
+    const auto ranges = ring_.ranges(at);
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges_[ring_.triangles()[i]] = ranges[i];
+    return distance;
+  }
+
+  /// Step in the tangent space towards a higher soft minimum: (spread + |g| / r)^-1 g, no longer than r.
+  [[nodiscard]] Vec3 ascent(Index v, const Vec3& at) {
+    const AngleRing::Soft soft = ring_.soft(at, kSharpness[stage_]);
+    const Vec3 axis = tangent_axis(problem_, x_, v);
+    const Vec3 g = tangent_part(problem_.mobility[v], axis, soft.gradient);
+    const double slope = g.norm();
+    if (!(slope > 0)) return Vec3::Zero();
+    NewtonBlock block(problem_.mobility[v], axis);
+    const double damping = slope / (kReach * ring_.shortest_edge(at));
+    block.h11 = damping + block.t1.dot(soft.spread * block.t1);
+    block.h12 = block.t1.dot(soft.spread * block.t2);
+    block.h22 = damping + block.t2.dot(soft.spread * block.t2);
+    return block.solve(g);
+  }
+
+  /// No triangle around the vertex gets worse than the worst of the mesh at the start.
+  [[nodiscard]] bool keeps_floor(const Vec3& at) {
+    for (const AngleRange& r : ring_.ranges(at))
+      if (r.min < floor_.min || r.max > floor_.max) return false;
+    return true;
+  }
+
+  void finish(std::span<const Vec3> positions, StepRecord& record) {
+    double largest = 0;
+    record.moved = 0;
+    for (Index v = 0; v < problem_.vertex_count(); ++v) {
+      record.displacement[v] = x_[v] - positions[v];
+      const double squared = record.displacement[v].squaredNorm();
+      largest = std::max(largest, squared);
+      record.moved += squared > 0 ? 1 : 0;
+      x_[v] = positions[v] + record.displacement[v];
+    }
+    record.largest_move = std::sqrt(largest);
+    record.after = objective_.evaluate(x_);
+  }
+
+  const SmoothingProblem& problem_;
+  PolishOptions options_;
+  AngleRing ring_;
+  Objective objective_;
+  std::vector<Vec3> x_;
+  std::vector<AngleRange> ranges_;
+  AngleRange worst_{0, 180};  // of the mesh now
+  AngleRange floor_{0, 180};  // of the mesh at the start
+  double mean_ = 0;           // of the smallest angles at the start
+  double window_ = kWindow;
+  std::size_t stage_ = 0;
+  unsigned steps_ = 0, idle_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Smoother> make_polish(const SmoothingProblem& problem, const PolishOptions& options) {
+  return std::make_unique<PolishSmoother>(problem, options);
+}
+
+}  // namespace isorelax
