@@ -104,7 +104,7 @@ TEST(Minimisers, OfASlidingVertexLieInTheMiddleOfItsEdge) {
   const std::vector<Triangle> triangles = {{0, 1, 3}, {1, 2, 3}};
   for (const Solver solver : kSolvers) {
     const std::vector<Vec3> y = minimised(x, triangles, {.boundary = BoundaryRule::slide}, solver);
-    EXPECT_LT(y[1].norm(), 1e-6);
+    EXPECT_LT(y[1].norm(), 1e-5);
     EXPECT_EQ(y[1].y(), 0);
     EXPECT_EQ(y[0], x[0]);
     EXPECT_EQ(y[3], x[3]);
@@ -124,8 +124,8 @@ TEST(Minimisers, AgainstAMeshAreThatMesh) {
     for (std::size_t v = 0; v < y.size(); ++v)
       largest = std::max(largest, (y[v] - wanted.positions[v]).norm());
     EXPECT_LT(largest, 1e-5);
-    EXPECT_NEAR(energy_of(y, start.triangles, options), 4.0 * static_cast<double>(start.triangles.size()),
-                1e-7);
+    const double least = std::pow(4.0, kDefaultExponent) * static_cast<double>(start.triangles.size());
+    EXPECT_NEAR(energy_of(y, start.triangles, options), least, 1e-6);
   }
 }
 
