@@ -37,12 +37,11 @@ void filter_row(const float* from, int width, const Kernel& kernel, std::vector<
 }  // namespace
 
 Kernel gaussian(double sigma, int radius) {
-  Kernel kernel(2 * static_cast<std::size_t>(radius) + 1);
+  Kernel kernel;
   double sum = 0;
   const auto weight = [&](int x) { return std::exp(-0.5 * x * x / (sigma * sigma)); };
   for (int x = -radius; x <= radius; ++x) sum += weight(x);
-  for (int x = -radius; x <= radius; ++x)
-    kernel[static_cast<std::size_t>(x + radius)] = static_cast<float>(weight(x) / sum);
+  for (int x = -radius; x <= radius; ++x) kernel.push_back(static_cast<float>(weight(x) / sum));
   return kernel;
 }
 

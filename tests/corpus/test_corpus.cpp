@@ -62,10 +62,12 @@ class Corpus : public testing::TestWithParam<std::string> {
     const ProblemOptions options;
     SmoothingProblem problem = make_problem(before.positions, before.triangles, options);
     TriangleMesh after = before;
+    // The blade's long thin triangles take longer.
+    const unsigned iterations = GetParam() == "blade" ? 60 : 40;
     BoundedResult result = run_bounded(
         after.positions, after.triangles, options,
         [](const SmoothingProblem& p) { return make_smoother(p, Solver::automatic); },
-        RunOptions{.iterations = 40}, DeviationLimit{});
+        RunOptions{.iterations = iterations}, DeviationLimit{});
     Smoothed smoothed{std::move(before), std::move(after), std::move(problem), std::move(result)};
     return cache.emplace(GetParam(), std::move(smoothed)).first->second;
   }
@@ -95,8 +97,7 @@ TEST_P(Corpus, TheMeanOfTheSmallestAnglesGrowsAndTheWorstAreNotWorse) {
   const Smoothed& s = smoothed();
   const QualityReport before = measure_quality(s.before);
   const QualityReport after = measure_quality(s.after);
-  // A blade of long thin triangles is on its way after forty iterations and ends above.
-  EXPECT_GT(after.mean_min_angle_deg, before.mean_min_angle_deg - 0.01);
+  EXPECT_GT(after.mean_min_angle_deg, before.mean_min_angle_deg);
   EXPECT_GE(after.min_angle_deg, before.min_angle_deg - 1e-9);
   EXPECT_LE(after.max_angle_deg, std::max(before.max_angle_deg, 120.0) + 1e-9);
   EXPECT_LE(after.degenerate, before.degenerate);
