@@ -96,7 +96,7 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
     if (too_sharp || turns_away(trial, t)) limit = std::min(limit, 0.5);
     if (!(limit < 1) || problem_.treated[t] == 0) continue;
-    for (const Index v : problem_.triangles[t]) cuts.push_back({v, limit});
+    for (const Index v : problem_.triangles[t]) cuts.push_back({v, t, limit});
   }
 }
 
@@ -137,13 +137,16 @@ std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& reco
   std::vector<Index> changed;
   for (unsigned round = 1; !cuts.empty(); ++round) {
     ++record.fold_passes;
+    begin_pass(record, kLimitFold);
     // Every vertex takes the smallest share of its triangles, all found for the same moves.
     std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-      return a.vertex != b.vertex ? a.vertex < b.vertex : a.share < b.share;
+      if (a.vertex != b.vertex) return a.vertex < b.vertex;
+      return a.share != b.share ? a.share < b.share : a.triangle < b.triangle;
     });
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       if (i > 0 && cuts[i - 1].vertex == cuts[i].vertex) continue;
-      trial.cut(record, cuts[i].vertex, round >= kMaxRounds ? 0.0 : cuts[i].share, kLimitFold);
+      if (trial.cut(record, cuts[i].vertex, round >= kMaxRounds ? 0.0 : cuts[i].share, kLimitFold))
+        note_cut(record, cuts[i].vertex, cuts[i].triangle);
     }
     const std::vector<Index> touched = trial.take_touched();
     changed.insert(changed.end(), touched.begin(), touched.end());

@@ -33,6 +33,7 @@ class FoldControl {
  private:
   struct Cut {
     Index vertex;
+    Index triangle;
     double share;
   };
   void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/parallel.h"
+#include "smoothing/tangent.h"
 
 namespace isorelax {
 namespace {
@@ -49,8 +50,9 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
     here_.mark(positions);
   }
   record.before = here_.totals();
-  if (detail_ == RecordDetail::vertices_and_triangles) record_triangles(record);
+  if (detail_ != RecordDetail::vertices) record_triangles(record);
   record.before.gradient_norm = propose(positions, here_, record);
+  if (detail_ == RecordDetail::stages) record_stages(positions, record);
   trial_.start(positions, record);
   if (guard_ != StepGuard::none) fold_.limit(trial_, record);
   record.after = there_.evaluate(trial_.to());
@@ -67,6 +69,7 @@ void GuardedSmoother::prepare(StepRecord& record) const {
   record.limits = problem_.fixed_limits;
   record.tangent_class = problem_.classes.classes;
   record.fold_passes = record.energy_passes = 0;
+  record.detail.reset();
 }
 
 void GuardedSmoother::record_triangles(StepRecord& record) const {
@@ -76,19 +79,49 @@ void GuardedSmoother::record_triangles(StepRecord& record) const {
   for (Index t = 0; t < problem_.triangle_count(); ++t) record.energy[t] = here_.energy(t);
 }
 
+/// What the proposal was made from; the rounds of control are noted as they are made.
+void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord& record) const {
+  const std::size_t n = problem_.vertex_count();
+  StepDetail& detail = record.detail.emplace();
+  detail.dimensions.resize(n);
+  detail.axis.resize(n);
+  detail.tangent.resize(n);
+  detail.proposed = record.displacement;
+  parallel_for_blocks(n, problem_.threads, [&](std::size_t begin, std::size_t end) {
+    std::array<VertexSums, kLanes> sums;
+    for (std::size_t first = begin; first < end; first += kLanes) {
+      const std::size_t count = std::min<std::size_t>(kLanes, end - first);
+      for (std::size_t i = 0; i < count; ++i) sums[i] = here_.gather(static_cast<Index>(first + i));
+      const auto axes =
+          tangent_axes(problem_, positions, static_cast<Index>(first), std::span(sums).first(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t v = first + i;
+        const Mobility mobility = problem_.mobility[v];
+        detail.dimensions[v] = static_cast<std::uint8_t>(mobility);
+        detail.axis[v] = mobility == Mobility::none ? Vec3(Vec3::Zero()) : axes[i];
+        detail.tangent[v] = tangent_part(mobility, axes[i], record.gradient[v]);
+      }
+    }
+  });
+}
+
 /// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,
 /// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
   const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
   for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
     ++record.energy_passes;
+    begin_pass(record, kLimitEnergy);
+    const auto cut = [&](Index v, double factor) {
+      if (trial_.cut(record, v, factor, kLimitEnergy)) note_cut(record, v, kNone);
+    };
     if (round < local) {
-      for (Index v = 0; v < problem_.vertex_count(); ++v) trial_.cut(record, v, 0.5, kLimitEnergy);
+      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0.5);
     } else if (round < local + kLocalRounds) {
-      for (const Index v : vertices_where_energy_rose()) trial_.cut(record, v, 0.5, kLimitEnergy);
+      for (const Index v : vertices_where_energy_rose()) cut(v, 0.5);
     } else {
       const double factor = round < local + kLocalRounds + kTriangleRounds ? 0.25 : 0.0;
-      for (const Index v : vertices_of_worse_triangles()) trial_.cut(record, v, factor, kLimitEnergy);
+      for (const Index v : vertices_of_worse_triangles()) cut(v, factor);
     }
     std::vector<Index> changed = trial_.take_touched();
     const std::vector<Index> unfolded = fold_.limit(trial_, record, changed);

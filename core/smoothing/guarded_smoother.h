@@ -40,6 +40,7 @@ class GuardedSmoother : public Smoother {
  private:
   void prepare(StepRecord& record) const;
   void record_triangles(StepRecord& record) const;
+  void record_stages(std::span<const Vec3> positions, StepRecord& record) const;
   void guard_energy(StepRecord& record);
   [[nodiscard]] std::vector<Index> vertices_where_energy_rose() const;
   [[nodiscard]] std::vector<Index> vertices_of_worse_triangles() const;

@@ -10,7 +10,11 @@
 namespace isorelax {
 
 /// How detailed a record is.
-enum class RecordDetail : std::uint8_t { vertices, vertices_and_triangles };
+enum class RecordDetail : std::uint8_t {
+  vertices,
+  vertices_and_triangles,
+  stages,  ///< these, and StepRecord::detail
+};
 
 /// One way of finding the next positions. A step is pure: it fills the caller's record (whose arrays are
 /// reused) and moves nothing.

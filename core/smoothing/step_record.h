@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "mesh/topology.h"
 #include "surface/vertex_class.h"
 
 namespace isorelax {
@@ -29,6 +31,27 @@ struct StepTotals {
   double gradient_norm = 0;  ///< 2-norm of the gradient in the free tangent coordinates; only in `before`
 };
 
+/// One vertex cut back in a round of the step control.
+struct ControlCut {
+  Index vertex = 0;
+  double alpha = 1;        ///< what is left of its move
+  Index triangle = kNone;  ///< that would have folded; kNone: it was the energy
+};
+/// One round of the fold control (kLimitFold) or of the energy guard (kLimitEnergy).
+struct ControlPass {
+  Limit why = kLimitFold;
+  std::vector<ControlCut> cuts;
+};
+
+/// What a step found on its way: for looking at it stage by stage.
+struct StepDetail {
+  std::vector<std::uint8_t> dimensions;  ///< of each vertex' tangent space: 0, 1 or 2
+  std::vector<Vec3> axis;      ///< unit normal of a plane, unit direction of a line; zero where it has none
+  std::vector<Vec3> tangent;   ///< V V^T g: the gradient's part in the tangent space
+  std::vector<Vec3> proposed;  ///< the move before it is bent to the surface and cut back
+  std::vector<ControlPass> passes;  ///< in the order in which they were made
+};
+
 /// Everything one step of a smoother found out. Computing it moves nothing; `apply_step` does.
 ///
 /// Arrays are indexed by vertex or by triangle. The command line, the tests, the traces, the plots and the
@@ -42,6 +65,8 @@ struct StepRecord {
 
   /// Per triangle K, S and E before the step; filled only when detail is asked for.
   std::vector<double> shape, area, energy;
+  /// The way to the step; only when all detail is asked for.
+  std::optional<StepDetail> detail;
 
   StepTotals before, after;
   double largest_move = 0;     ///< length of the longest accepted move
@@ -49,6 +74,21 @@ struct StepRecord {
   unsigned energy_passes = 0;  ///< rounds of the energy guard
   std::size_t moved = 0;       ///< vertices that move
 };
+
+/// Begins a round of the step control in the record, and notes in it that a vertex was cut back: nothing is
+/// done without detail.
+void begin_pass(StepRecord& record, Limit why);
+void note_cut(StepRecord& record, Index vertex, Index triangle);
+
+/// The share of its move that each vertex has left after so many rounds of the step control. Precondition:
+/// the record has detail.
+[[nodiscard]] std::vector<double> alpha_after(const StepRecord& record, std::size_t passes);
+
+/// The triangle that set a vertex' share last; kNone where nothing or the energy did. Without detail kNone.
+[[nodiscard]] Index triangle_that_cut(const StepRecord& record, Index vertex);
+
+/// Memory held by the record's arrays, in bytes.
+[[nodiscard]] std::size_t bytes_of(const StepRecord& record);
 
 /// How many vertices are limited by each bit, in bit order.
 std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> limits);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "mesh/error.h"
 #include "trace/predicate_names.h"
 
 namespace isorelax {
@@ -220,7 +219,7 @@ Predicate::Predicate(std::string text) : text_(std::move(text)) {
   try {
     value_ = Parser(text_).parse();
   } catch (const Mistake& mistake) {
-    throw UsageError(text_ + ": column " + std::to_string(mistake.column) + ": " + mistake.reason);
+    throw PredicateError(text_, mistake.column, mistake.reason);
   }
 }
 

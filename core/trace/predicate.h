@@ -5,9 +5,25 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/error.h"
 #include "trace/trace.h"
 
 namespace isorelax {
+
+/// A predicate that cannot be read, and where: what() is the text, the column and the reason.
+class PredicateError : public UsageError {
+ public:
+  PredicateError(const std::string& text, std::size_t column, const std::string& reason)
+      : UsageError(text + ": column " + std::to_string(column) + ": " + reason),
+        column_(column),
+        reason_(reason) {}
+  [[nodiscard]] std::size_t column() const { return column_; }  ///< from 1
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::size_t column_;
+  std::string reason_;
+};
 
 /// What a predicate can ask about: one iteration of a run.
 struct Moment {
@@ -28,7 +44,8 @@ struct Moment {
 /// + - ; * / ; - ! ; parentheses. Everything is a number; true is 1, and what is not 0 holds.
 class Predicate {
  public:
-  /// Throws UsageError: the text, the column and what was expected there. Ids are looked at when evaluating.
+  /// Throws PredicateError: the text, the column and what was expected there. Ids are looked at when
+  /// evaluating.
   explicit Predicate(std::string text);
 
   /// Whether it holds. A vertex or triangle that does not exist has no value: comparisons with it are false.
