@@ -86,10 +86,9 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--untangle", spec.untangle,
                  "auto (default): turn triangles that lie upside down before smoothing; off: leave them")
       ->type_name("RULE");
-  app.add_option(
-         "--pin", spec.pins,
-         "Vertices that must not move: boundary, feature, box:X0,Y0,Z0:X1,Y1,Z1 (two corners), or a FILE "
-         "of vertex numbers from 0; may be repeated")
+  app.add_option("--pin", spec.pins,
+                 "Vertices that must not move: boundary, feature, box:X0,Y0,Z0:X1,Y1,Z1 (two corners), "
+                 "vertices:ID,ID,..., or a FILE of vertex numbers from 0; may be repeated")
       ->type_name("WHICH")
       ->allow_extra_args(false);
   app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")

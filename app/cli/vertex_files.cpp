@@ -78,6 +78,24 @@ Box parse_box(const std::string& pin) {
   throw UsageError("--pin " + pin + ": expected two corners, as in box:0,0,0:1,1,0.5");
 }
 
+constexpr std::string_view kVertices = "vertices:";
+
+/// "vertices:12,40".
+std::vector<Index> listed_vertices(const std::string& pin, std::size_t vertex_count) {
+  std::vector<Index> listed;
+  for (std::size_t at = kVertices.size(); at <= pin.size();) {
+    const std::size_t comma = std::min(pin.find(',', at), pin.size());
+    Index id = 0;
+    const auto [end, error] = std::from_chars(pin.data() + at, pin.data() + comma, id);
+    if (error != std::errc() || end != pin.data() + comma || id >= vertex_count)
+      throw UsageError("--pin " + pin + ": expected numbers below " + std::to_string(vertex_count) +
+                       " with commas between, as in vertices:12,40");
+    listed.push_back(id);
+    at = comma + 1;
+  }
+  return listed;
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
@@ -119,6 +137,8 @@ std::vector<Index> parse_pins(Console& console, const std::vector<std::string>& 
                               options.features, options.threads);
     } else if (pin.starts_with(kBox)) {
       held = vertices_in(parse_box(pin), mesh.positions);
+    } else if (pin.starts_with(kVertices)) {
+      held = listed_vertices(pin, mesh.vertex_count());
     } else {
       held = read_pins(pin, mesh.vertex_count());
     }

@@ -13,9 +13,10 @@ class Console;
 /// A number that is the whole of the text; none otherwise.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// The vertices that every `--pin` names: boundary | feature | box:X0,Y0,Z0:X1,Y1,Z1 | FILE of vertex numbers
-/// from 0, separated by white space or commas, # starting a comment. Says how many each predicate holds.
-/// Throws UsageError for a box that is none, InputError for what is no number of a vertex.
+/// The vertices that every `--pin` names: boundary | feature | box:X0,Y0,Z0:X1,Y1,Z1 | vertices:ID,ID,... |
+/// FILE of vertex numbers from 0, separated by white space or commas, # starting a comment. Says how many
+/// each predicate holds. Throws UsageError for a box that is none, InputError for what is no number of a
+/// vertex.
 [[nodiscard]] std::vector<Index> parse_pins(Console& console, const std::vector<std::string>& pins,
                                             const TriangleMesh& mesh, const ProblemOptions& options);
 

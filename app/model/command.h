@@ -34,13 +34,13 @@ struct Pause {};
 struct Step {};
 /// Back to the positions of the file.
 struct Reset {};
-/// Undoes the last step or run; nothing else.
+/// One iteration back on the timeline.
 struct StepBack {};
 struct Undo {};
 struct Redo {};
 /// Stops whatever the worker does.
 struct Cancel {};
-/// Selects the next worse triangle of the coloured quantity; the worst one first.
+/// Selects the next worse triangle by what SetWorstBy says; the worst one first.
 struct SelectNextWorst {};
 struct ClearSelection {};
 /// Puts the equivalent `isorelax smooth` command into Session::command_line.
@@ -49,6 +49,67 @@ struct CopyCommandLine {};
 struct Say {
   Message message;
 };
+/// Shows an iteration of a branch, none: of the present one. A run that goes on is paused first.
+struct Seek {
+  unsigned iteration = 0;
+  std::optional<unsigned> branch;
+};
+/// Shows a stage inside the step that led to the present iteration; none: what came of it.
+struct SetStage {
+  std::optional<Stage> stage;
+};
+/// To the next stage, over the ends of iterations: 1 or -1.
+struct StepStage {
+  int direction = 1;
+};
+struct SelectVertex {
+  Index vertex = 0;
+};
+struct SelectTriangle {
+  Index triangle = 0;
+};
+/// Marks the vertices that the shown step was limited for by this bit of Limit; none: no longer.
+struct SelectLimited {
+  std::optional<unsigned> bit;
+};
+/// What SelectNextWorst goes by.
+struct SetWorstBy {
+  WorstBy by = WorstBy::coloring;
+};
+/// Holds a vertex in later runs, or lets it go.
+struct TogglePin {
+  Index vertex = 0;
+};
+/// All breakpoints, as they are to be: a text that cannot be read stays, with its mistake.
+struct SetBreakpoints {
+  std::vector<Breakpoint> breakpoints;
+};
+/// Memory for full step records, in bytes.
+struct SetStepBudget {
+  std::size_t bytes = StepStore::kDefaultBudget;
+};
+/// Branches shown beside the present one, at the same iteration: up to three.
+struct ShowBranches {
+  std::vector<unsigned> branches;
+};
+/// Where two branches part.
+struct CompareBranches {
+  unsigned first = 0, second = 0;
+};
+/// Runs the three methods from here and shows them side by side.
+struct Teach {};
+/// Writes the present branch as a trace file.
+struct SaveTrace {
+  std::filesystem::path path;
+};
+/// Opens a recorded run in place of the document.
+struct OpenTrace {
+  std::filesystem::path path;
+};
+/// Adds a recorded run of the same mesh to the timeline.
+struct AddTrace {
+  std::filesystem::path path;
+};
 /// Recently opened files, newest first, as kept between two starts of the program.
 struct SetRecent {
   std::vector<std::filesystem::path> paths;
@@ -56,9 +117,11 @@ struct SetRecent {
 /// Takes over what the worker has published. Never waits.
 struct Collect {};
 
-using Command =
-    std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset, StepBack, Undo,
-                 Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine, Say, SetRecent, Collect>;
+using Command = std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset,
+                             StepBack, Undo, Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine,
+                             Say, SetRecent, Collect, Seek, SetStage, StepStage, SelectVertex, SelectTriangle,
+                             SelectLimited, SetWorstBy, TogglePin, SetBreakpoints, SetStepBudget,
+                             ShowBranches, CompareBranches, Teach, SaveTrace, OpenTrace, AddTrace>;
 
 /// The only writer of a session. Returns at once: long work goes to the session's worker, and its results
 /// come with a later Collect. Throws nothing; what cannot be done becomes a message.

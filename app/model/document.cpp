@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace isorelax::model {
 namespace {
@@ -34,14 +35,18 @@ std::vector<std::uint8_t> mark_boundary(const Topology& topology) {
 
 }  // namespace
 
-DocumentPtr read_document(const std::filesystem::path& path) {
+DocumentPtr make_document(std::filesystem::path path, MeshFile file) {
   auto document = std::make_shared<Document>();
-  document->path = path;
-  document->file = read_mesh(path);
+  document->path = std::move(path);
+  document->file = std::move(file);
   document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
   document->plane_normal = find_plane(document->mesh());
   document->boundary_marks = mark_boundary(document->topology);
   return document;
+}
+
+DocumentPtr read_document(const std::filesystem::path& path) {
+  return make_document(path, read_mesh(path));
 }
 
 }  // namespace isorelax::model

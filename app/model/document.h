@@ -27,6 +27,9 @@ struct Document {
 };
 using DocumentPtr = std::shared_ptr<const Document>;
 
+/// The document of a mesh that is there already.
+[[nodiscard]] DocumentPtr make_document(std::filesystem::path path, MeshFile file);
+
 /// Reads a mesh file. Throws InputError.
 [[nodiscard]] DocumentPtr read_document(const std::filesystem::path& path);
 

@@ -26,6 +26,11 @@ bool JobContext::view_is_waiting() const {
   return engine_.events_.empty();
 }
 
+bool JobContext::others_wait() const {
+  const std::scoped_lock lock(engine_.mutex_);
+  return !engine_.waiting_.empty() || engine_.cancelled_;
+}
+
 Workbench& JobContext::bench() const {
   return engine_.bench_;
 }

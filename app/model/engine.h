@@ -34,6 +34,8 @@ class JobContext {
   /// Whether the view has taken everything published so far. A run measures a new state for the view only
   /// then.
   [[nodiscard]] bool view_is_waiting() const;
+  /// Whether another job waits: one that is nice to have should give way.
+  [[nodiscard]] bool others_wait() const;
   [[nodiscard]] Workbench& bench() const;
 
  private:

@@ -7,10 +7,15 @@
 #include <variant>
 #include <vector>
 
+#include "model/breakpoint.h"
 #include "model/mesh_state.h"
+#include "smoothing/explain.h"
 #include "smoothing/run.h"
+#include "trace/trace_diff.h"
 
 namespace isorelax::model {
+
+class Recording;
 
 /// One line of the record that a run leaves: what the plots draw.
 struct IterationRow {
@@ -48,15 +53,29 @@ struct EnergyMeasured {
   std::shared_ptr<const EnergyState> original, current;
   std::vector<std::string> notes;
 };
+/// Memory that full step records take.
+struct StepMemory {
+  std::size_t bytes = 0;
+  std::size_t records = 0;
+};
 /// One or more iterations were done; `state` is the newest measured one, or null.
 struct Iterated {
   std::vector<IterationRow> rows;
+  std::vector<StepSummary> steps;  ///< one for each row
   MeshStatePtr state;
-  StepSummary step;
+  std::vector<BreakHit> hits;
+  StepMemory memory;
 };
 /// A run ended; its last state came with an Iterated before it.
 struct RunEnded {
   RunResult result;
+  std::string broken_by;  ///< the predicate that ended it; empty: none
+};
+/// Another iteration is shown; `others` are those of the branches beside it.
+struct Sought {
+  std::uint64_t number = 0;  ///< of the request
+  MeshStatePtr state;
+  std::vector<MeshStatePtr> others;
 };
 struct Saved {
   std::filesystem::path path;
@@ -72,6 +91,50 @@ struct RunFailed {
   std::string text;
 };
 
-using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, Saved, Failed, RunFailed>;
+/// What was asked about a step.
+struct Inspected {
+  std::uint64_t number = 0;  ///< of the request
+  std::shared_ptr<const StepRecord> record;
+  std::shared_ptr<const std::vector<Vec3>> before;
+  std::string mismatch;
+  std::optional<VertexExplanation> vertex;
+  std::optional<TriangleExplanation> triangle;
+  StepMemory memory;
+};
+/// Where a vertex was, over the iterations of a branch.
+struct Followed {
+  unsigned branch = 0;
+  Index vertex = 0;
+  std::vector<Vec3> positions;
+};
+/// A recorded run was read.
+struct TraceOpened {
+  std::filesystem::path path;
+  Trace head;  ///< without positions and deltas
+  std::vector<IterationRow> rows;
+  std::vector<StepSummary> steps;
+  std::shared_ptr<Recording> recording;
+  std::optional<SmoothingSettings> settings;  ///< none: with options that the editor does not know
+  DocumentPtr document;  ///< of its mesh; null when it joins the runs of the open document
+  MeshStatePtr state;
+};
+/// Recorded iterations were looked at for breakpoints.
+struct Scanned {
+  std::vector<BreakHit> hits;
+  std::optional<unsigned> stop;  ///< the iteration at which one stops; none: none did
+  std::string broken_by;
+};
+/// Two branches were compared.
+struct Compared {
+  unsigned first = 0, second = 0;
+  TraceDifference difference;
+};
+/// A file beside the mesh was written.
+struct Wrote {
+  std::filesystem::path path;
+};
+
+using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, Saved, Failed, RunFailed, Sought,
+                           Inspected, Followed, TraceOpened, Compared, Wrote, Scanned>;
 
 }  // namespace isorelax::model

@@ -32,13 +32,14 @@ void Executor::say(MessageKind kind, std::string text) {
 
 bool Executor::wait_for_run(std::function<void(Session&)> then) {
   if (!s_.is_running()) return false;
-  s_.after_run_.push_back(std::move(then));
+  s_.when_idle_.push_back(std::move(then));
   s_.engine.cancel();
   return true;
 }
 
 void Executor::operator()(const OpenFile& command) {
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
   s_.engine.post("load", load_job(command.path, s_.smoothing));
@@ -67,7 +68,9 @@ void Executor::operator()(const EndEdit& /*command*/) {
 }
 
 void Executor::operator()(const SetView& command) {
+  const bool reasons = command.view.reasons && !s_.view.reasons;
   s_.view = command.view;
+  if (reasons) ask_about_step();
 }
 
 void Executor::operator()(const Run& /*command*/) {
@@ -79,10 +82,12 @@ void Executor::operator()(const Step& /*command*/) {
 }
 
 void Executor::operator()(const Pause& /*command*/) {
+  s_.when_idle_.clear();
   if (s_.is_running()) s_.engine.cancel();
 }
 
 void Executor::operator()(const Cancel& /*command*/) {
+  s_.when_idle_.clear();
   s_.engine.cancel();
 }
 
@@ -91,11 +96,21 @@ void Executor::start_run(unsigned iterations) {
     say(MessageKind::info, "Open a mesh first.");
     return;
   }
+  if (s_.seeking_ && s_.activity == Activity::idle) {
+    s_.when_idle_.push_back([iterations](Session& s) { Executor(s).start_run(iterations); });
+    return;
+  }
   if (s_.activity != Activity::idle || iterations == 0) return;
+  if (run_over_recorded(iterations)) return;
   s_.run_start_ = s_.current;
   s_.rows_at_start_ = s_.history;
+  s_.cursor_at_start_ = s_.timeline.cursor;
   s_.run_iterations_ = iterations;
   s_.last_run.reset();
+  s_.broken_by.clear();
+  s_.inspection = {};
+  begin_branch();
+  s_.timeline.cursor.stage.reset();
   s_.activity = Activity::running;
   // A new series starts where this one will: the plots need its first point.
   if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
@@ -103,7 +118,9 @@ void Executor::start_run(unsigned iterations) {
     s_.history.push_back(
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
   }
-  s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series}));
+  s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series,
+                                 s_.timeline.current()->recording, s_.timeline.cursor.branch, s_.breakpoints,
+                                 s_.step_budget}));
 }
 
 void Executor::end_run() {
@@ -111,20 +128,25 @@ void Executor::end_run() {
   s_.activity = Activity::idle;
   if (was_running && s_.run_start_ && s_.run_start_->geometry != s_.current->geometry) {
     const unsigned done = s_.current->iteration - s_.run_start_->iteration;
-    s_.undo.push({count_label(done),
-                  PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_), s_.history}});
+    s_.undo.push({count_label(done), PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_),
+                                                     s_.history, s_.cursor_at_start_, s_.timeline.cursor}});
   }
+  if (was_running) drop_empty_branch();
   s_.run_start_.reset();
   s_.rows_at_start_.clear();
   measure_energy_if_changed();
-  for (const auto& next : std::exchange(s_.after_run_, {})) next(s_);
+  ask_about_step();
+  go_on_when_idle();
 }
 
 void Executor::operator()(const Reset& command) {
   if (!s_.current) return;
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
   if (s_.activity != Activity::idle || s_.current->geometry == s_.original->geometry) return;
-  PositionsChange change{s_.current, s_.original, std::move(s_.history), {}};
+  Cursor start = s_.timeline.cursor;
+  start.iteration = 0;
+  start.stage.reset();
+  PositionsChange change{s_.current, s_.original, std::move(s_.history), {}, s_.timeline.cursor, start};
   if (s_.original->energy) {
     const QualityReport& q = s_.original->quality();
     change.rows_after.push_back(
@@ -133,28 +155,30 @@ void Executor::operator()(const Reset& command) {
   s_.history = change.rows_after;
   s_.undo.push({"Reset", std::move(change)});
   s_.current = s_.original;
+  s_.timeline.cursor = start;
   s_.last_step.reset();
   s_.last_run.reset();
   s_.remaining = 0;
+  ask_about_step();
 }
 
 void Executor::operator()(const StepBack& /*command*/) {
-  const UndoEntry* entry = s_.undo.next_undo();
-  if (entry != nullptr && std::holds_alternative<PositionsChange>(entry->change) && entry->label != "Reset")
-    (*this)(Undo{});
-  else if (s_.current)
+  if (!s_.current) return;
+  if (s_.timeline.cursor.iteration > 0)
+    (*this)(Seek{s_.timeline.cursor.iteration - 1, {}});
+  else
     say(MessageKind::info, "There is no earlier iteration to go back to.");
 }
 
 void Executor::operator()(const Undo& command) {
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  if (s_.activity != Activity::idle || s_.undo.next_undo() == nullptr) return;
+  if (s_.activity != Activity::idle || s_.seeking_ || s_.undo.next_undo() == nullptr) return;
   apply(*s_.undo.next_undo(), false);
   s_.undo.undone();
 }
 
 void Executor::operator()(const Redo& /*command*/) {
-  if (s_.activity != Activity::idle || s_.undo.next_redo() == nullptr) return;
+  if (s_.activity != Activity::idle || s_.seeking_ || s_.undo.next_redo() == nullptr) return;
   apply(*s_.undo.next_redo(), true);
   s_.undo.redone();
 }
@@ -166,11 +190,14 @@ void Executor::apply(const UndoEntry& entry, bool forward) {
     const auto& positions = std::get<PositionsChange>(entry.change);
     s_.current = forward ? positions.after : positions.before;
     s_.history = forward ? positions.rows_after : positions.rows_before;
+    s_.timeline.cursor = forward ? positions.cursor_after : positions.cursor_before;
+    s_.inspection.step.reset();
     s_.last_step.reset();
     s_.last_run.reset();
   }
   s_.remaining = 0;
   measure_energy_if_changed();
+  ask_about_step();
   say(MessageKind::info, (forward ? "Redone: " : "Undone: ") + entry.label);
 }
 
@@ -184,26 +211,69 @@ void Executor::measure_energy_if_changed() {
     s_.engine.post("energy", energy_job(s_.document, s_.smoothing, s_.original, s_.current));
 }
 
+std::span<const double> Executor::worst_values() {
+  const auto by = [&](Coloring coloring) { return s_.current->values(coloring); };
+  FaceMetric metric = FaceMetric::shape;
+  switch (s_.worst_by) {
+    case WorstBy::coloring:
+      return by(s_.view.coloring == Coloring::none ? Coloring::min_angle : s_.view.coloring);
+    case WorstBy::min_angle:
+      return by(Coloring::min_angle);
+    case WorstBy::max_angle:
+      return by(Coloring::max_angle);
+    case WorstBy::area:
+      return by(Coloring::relative_area);
+    case WorstBy::energy:
+      return by(Coloring::energy);
+    case WorstBy::shape:
+      break;
+    case WorstBy::radius_ratio:
+      metric = FaceMetric::radius_ratio;
+      break;
+    case WorstBy::scaled_jacobian:
+      metric = FaceMetric::scaled_jacobian;
+      break;
+    case WorstBy::aspect_ratio:
+      metric = FaceMetric::aspect_ratio;
+      break;
+  }
+  if (s_.worst_values_of_ != s_.current->geometry || s_.worst_values_by_ != s_.worst_by) {
+    s_.worst_values_ = face_metric(metric, s_.current->positions(), s_.document->mesh().triangles);
+    s_.worst_values_of_ = s_.current->geometry;
+    s_.worst_values_by_ = s_.worst_by;
+  }
+  return s_.worst_values_;
+}
+
 void Executor::operator()(const SelectNextWorst& /*command*/) {
   if (!s_.current) return;
-  const Coloring by = s_.view.coloring == Coloring::none ? Coloring::min_angle : s_.view.coloring;
-  const auto values = s_.current->values(by);
+  const bool by_color = s_.worst_by == WorstBy::coloring;
+  const auto values = worst_values();
   if (values.empty()) return;
-  const double sign = by == Coloring::min_angle ? 1 : -1;  // smaller key: worse
+  const bool small_is_worse =
+      s_.worst_by == WorstBy::min_angle || s_.worst_by == WorstBy::radius_ratio ||
+      s_.worst_by == WorstBy::scaled_jacobian ||
+      (by_color && (s_.view.coloring == Coloring::min_angle || s_.view.coloring == Coloring::none));
+  const double sign = small_is_worse ? 1 : -1;  // smaller key: worse
   using Key = std::pair<double, Index>;
   const auto key = [&](Index t) { return Key{sign * values[t], t}; };
+  // A triangle that was chosen otherwise is no place to go on from.
+  const std::optional<Index> last = s_.worst_rank > 0 ? s_.selected_triangle : std::nullopt;
   std::optional<Key> best;
   for (Index t = 0; t < values.size(); ++t) {
-    if (s_.selected_triangle && key(t) <= key(*s_.selected_triangle)) continue;
+    if (last && key(t) <= key(*last)) continue;
     if (!best || key(t) < *best) best = key(t);
   }
-  s_.worst_rank = best ? s_.worst_rank + 1 : 0;
-  s_.selected_triangle = best ? std::optional(best->second) : std::nullopt;
+  const std::size_t rank = best ? s_.worst_rank + 1 : 0;
+  clear_selection();
+  s_.worst_rank = rank;
+  if (best) s_.selected_triangle = best->second;
+  ask_about_step();
 }
 
 void Executor::operator()(const ClearSelection& /*command*/) {
-  s_.selected_triangle.reset();
-  s_.worst_rank = 0;
+  clear_selection();
+  s_.selected_limit.reset();
 }
 
 void Executor::operator()(const CopyCommandLine& /*command*/) {
@@ -223,8 +293,11 @@ void Executor::operator()(const SetRecent& command) {
 
 void Executor::operator()(const Collect& /*command*/) {
   for (Event& event : s_.engine.collect()) std::visit(*this, event);
+  if (s_.engine.busy()) return;
   // A job that was dropped before it began leaves no event.
-  if (s_.activity != Activity::idle && !s_.engine.busy()) end_run();
+  s_.seeking_ = false;
+  if (s_.activity != Activity::idle) end_run();
+  go_on_when_idle();
 }
 
 void Executor::remember_recent(const std::filesystem::path& path) {
@@ -255,8 +328,8 @@ void Executor::operator()(Loaded& event) {
   s_.last_step.reset();
   s_.last_run.reset();
   s_.remaining = 0;
-  s_.selected_triangle.reset();
-  s_.worst_rank = 0;
+  clear_selection();
+  forget_runs();
   s_.notes = std::move(event.notes);
   s_.series = 0;
   show(event.state);
@@ -297,9 +370,17 @@ void Executor::operator()(EnergyMeasured& event) {
 }
 
 void Executor::operator()(Iterated& event) {
+  if (s_.timeline.empty()) return;
+  Branch& branch = s_.timeline.branches[s_.timeline.cursor.branch];
   s_.history.insert(s_.history.end(), event.rows.begin(), event.rows.end());
-  s_.last_step = event.step;
-  if (event.state) show(event.state);
+  branch.rows.insert(branch.rows.end(), event.rows.begin(), event.rows.end());
+  branch.steps.insert(branch.steps.end(), event.steps.begin(), event.steps.end());
+  s_.hits.insert(s_.hits.end(), event.hits.begin(), event.hits.end());
+  s_.step_memory = event.memory;
+  if (!branch.steps.empty()) s_.last_step = branch.steps.back();
+  if (!event.state) return;
+  show(event.state);
+  s_.timeline.cursor.iteration = event.state->iteration;
 }
 
 void Executor::operator()(RunEnded& event) {
@@ -308,6 +389,12 @@ void Executor::operator()(RunEnded& event) {
                      ? s_.run_iterations_ - event.result.iterations
                      : 0;
   s_.last_run = event.result;
+  s_.broken_by = event.broken_by;
+  if (!s_.timeline.empty()) {
+    Branch& branch = s_.timeline.branches[s_.timeline.cursor.branch];
+    branch.result = event.result;
+    branch.ended = event.broken_by.empty() ? std::string(to_string(event.result.stopped)) : event.broken_by;
+  }
   end_run();
 }
 
@@ -328,6 +415,7 @@ void Executor::operator()(Saved& event) {
 
 void Executor::operator()(Failed& event) {
   say(MessageKind::error, event.text);
+  s_.when_idle_.clear();
   if (s_.activity != Activity::running) s_.activity = Activity::idle;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/command.h"
+#include "model/timeline_jobs.h"
 
 namespace isorelax::model {
 
@@ -28,6 +29,22 @@ class Executor {
   void operator()(const Say& command);
   void operator()(const SetRecent& command);
   void operator()(const Collect& command);
+  void operator()(const Seek& command);
+  void operator()(const SetStage& command);
+  void operator()(const StepStage& command);
+  void operator()(const SelectVertex& command);
+  void operator()(const SelectTriangle& command);
+  void operator()(const SelectLimited& command);
+  void operator()(const SetWorstBy& command);
+  void operator()(const TogglePin& command);
+  void operator()(const SetBreakpoints& command);
+  void operator()(const SetStepBudget& command);
+  void operator()(const ShowBranches& command);
+  void operator()(const CompareBranches& command);
+  void operator()(const Teach& command);
+  void operator()(const SaveTrace& command);
+  void operator()(const OpenTrace& command);
+  void operator()(const AddTrace& command);
 
   void operator()(Loaded& event);
   void operator()(EnergyMeasured& event);
@@ -36,12 +53,31 @@ class Executor {
   void operator()(Saved& event);
   void operator()(Failed& event);
   void operator()(RunFailed& event);
+  void operator()(Sought& event);
+  void operator()(Inspected& event);
+  void operator()(Followed& event);
+  void operator()(TraceOpened& event);
+  void operator()(Compared& event);
+  void operator()(Wrote& event);
+  void operator()(Scanned& event);
 
  private:
   void say(MessageKind kind, std::string text);
   void start_run(unsigned iterations);
   void end_run();
   bool wait_for_run(std::function<void(Session&)> then);
+  void go_on_when_idle();
+  bool run_over_recorded(unsigned iterations);
+  void begin_branch();
+  void drop_empty_branch();
+  void seek(unsigned branch, unsigned iteration);
+  void ask_about_step();
+  void follow_selection();
+  void forget_runs();
+  void clear_selection();
+  [[nodiscard]] Place place_of(unsigned branch, unsigned iteration) const;
+  [[nodiscard]] PathRequest path_of(unsigned branch, unsigned last) const;
+  [[nodiscard]] std::span<const double> worst_values();
   void measure_energy_if_changed();
   void show(const MeshStatePtr& state);
   void apply(const UndoEntry& entry, bool forward);

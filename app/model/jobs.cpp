@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "model/arguments.h"
+#include "model/timeline_jobs.h"
 
 namespace isorelax::model {
 namespace {
@@ -11,40 +13,74 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Publishes what a run does, measuring a state for the view only when the view is ready for one and measuring
-// has not taken more time than stepping.
+// has not taken more time than stepping. Records every step, and looks whether a breakpoint holds.
 class RunReporter {
  public:
   RunReporter(const JobContext& context, const RunRequest& request, const SmoothingProblem& problem)
-      : context_(context), request_(request), problem_(problem) {}
+      : context_(context), request_(request), problem_(problem), recording_(*request.recording) {}
 
   bool operator()(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
-    const WorstAngles angles = worst_angles(positions, problem_.triangles);
+    recording_.add(record, positions);
+    Workbench& bench = context_.bench();
+    bench.went_on(recording_);
+    if (bench.steps().fits(bytes_of(record)))
+      bench.steps().add(&recording_, recording_.size(), std::make_shared<StepRecord>(record));
     iteration_ = request_.start->iteration + iteration;
-    rows_.push_back({iteration_, record.after.energy, angles.min_deg, angles.max_deg, record.largest_move,
-                     request_.series});
-    step_ = {iteration_,          record.before,    record.after,        count_limits(record.limits),
-             record.moved,        positions.size(), record.largest_move, record.fold_passes,
-             record.energy_passes};
+    const TraceQuality& quality = recording_.trace().iterations.back().quality;
+    found_.rows.push_back({iteration_, record.after.energy, quality.min_angle_deg, quality.max_angle_deg,
+                           record.largest_move, request_.series});
+    found_.steps.push_back(summary_of(record, iteration_, positions.size()));
     context_.progress("Smoothing", static_cast<double>(iteration) / request_.iterations);
+    const bool broken = look_at_breakpoints(record, positions, false);
     const auto since = Clock::now() - published_;
     if (context_.view_is_waiting() && since > measuring_ && since > std::chrono::milliseconds(15))
       publish(positions);
-    return !context_.cancelled();
+    return !broken && !context_.cancelled();
   }
 
   // The last state, unless it is out already.
   void finish(std::span<const Vec3> positions) {
-    if (!rows_.empty()) publish(positions);
+    const auto last = context_.bench().steps().find(&recording_, recording_.size());
+    if (broken_by_.empty() && last && recording_.size() > 0) look_at_breakpoints(*last, positions, true);
+    if (!found_.rows.empty() || !found_.hits.empty()) publish(positions);
   }
 
+  [[nodiscard]] const std::string& broken_by() const { return broken_by_; }
+
  private:
+  bool look_at_breakpoints(const StepRecord& record, std::span<const Vec3> positions, bool stop) {
+    const Trace& trace = recording_.trace();
+    for (const Breakpoint& point : request_.breakpoints) {
+      if (!point.enabled || !point.predicate) continue;
+      Moment now{.iteration = iteration_,
+                 .numbers = trace.iterations.back(),
+                 .record = record,
+                 .positions = positions,
+                 .triangles = trace.triangles,
+                 .inverted_at_start = trace.quality.inverted,
+                 .stop = stop};
+      if (!point.predicate->holds(now)) continue;
+      if (stop) {  // only what the end itself makes true
+        now.stop = false;
+        if (point.predicate->holds(now)) continue;
+      }
+      found_.hits.push_back({request_.branch, iteration_, point.text, point.action});
+      if (point.action == BreakAction::stop && broken_by_.empty()) broken_by_ = point.text;
+    }
+    return !broken_by_.empty();
+  }
+
   void publish(std::span<const Vec3> positions) {
     const auto begin = Clock::now();
     auto state = std::make_shared<MeshState>();
     state->iteration = iteration_;
     state->geometry = measure_geometry(*request_.document, {positions.begin(), positions.end()});
     state->energy = measure_energy(problem_, request_.settings, positions);
-    context_.publish(Iterated{std::exchange(rows_, {}), std::move(state), step_});
+    Workbench& bench = context_.bench();
+    bench.note_geometry(&recording_, recording_.size(), state->geometry);
+    found_.state = std::move(state);
+    found_.memory = {bench.steps().bytes(), bench.steps().count()};
+    context_.publish(std::exchange(found_, {}));
     published_ = Clock::now();
     measuring_ = published_ - begin;
   }
@@ -52,8 +88,9 @@ class RunReporter {
   const JobContext& context_;
   const RunRequest& request_;
   const SmoothingProblem& problem_;
-  std::vector<IterationRow> rows_;
-  StepSummary step_;
+  Recording& recording_;
+  Iterated found_;
+  std::string broken_by_;
   unsigned iteration_ = 0;
   Clock::time_point published_ = Clock::now();
   Clock::duration measuring_{};
@@ -61,28 +98,37 @@ class RunReporter {
 
 void run_and_report(const JobContext& context, const RunRequest& request) {
   context.progress("Preparing", -1);
-  const SmoothingProblem& problem = context.bench().problem(request.document, request.settings);
+  Workbench& bench = context.bench();
+  bench.steps().set_budget(request.step_budget);
+  const Workbench::ProblemPtr problem = bench.problem(request.document, request.settings);
+  if (!request.recording->has_begun())
+    request.recording->begin(about(*request.document, request.settings), request.document->mesh(),
+                             request.start->positions());
+  Smoother& smoother = bench.smoother(request.document, request.settings, *request.recording);
   if (context.cancelled()) {
-    RunResult result;
-    result.stopped = StopReason::cancelled;
-    context.publish(RunEnded{result});
+    RunResult cancelled;
+    cancelled.stopped = StopReason::cancelled;
+    context.publish(RunEnded{cancelled, {}});
     return;
   }
   const auto start = request.start->positions();
   std::vector<Vec3> positions(start.begin(), start.end());
-  RunReporter reporter(context, request, problem);
+  RunReporter reporter(context, request, *problem);
   const RunResult result =
-      run(context.bench().smoother(), problem, positions,
+      run(smoother, *problem, positions,
           {.iterations = request.iterations, .tolerance = request.settings.tolerance}, std::ref(reporter));
   reporter.finish(positions);
-  context.publish(RunEnded{result});
+  request.recording->trace().stopped = name_of(result.stopped);
+  request.recording->trace().stopped_because = to_string(result.stopped);
+  context.publish(RunEnded{result, reporter.broken_by()});
 }
 
 }  // namespace
 
 Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings) {
-  return [path = std::move(path), settings = std::move(settings)](const JobContext& context) {
+  return [path = std::move(path), settings = std::move(settings)](JobContext& context) {
     context.progress("Opening " + path.filename().string(), -1);
+    if (is_trace(path)) return open_trace_job(path, {})(context);
     Loaded loaded;
     loaded.document = read_document(path);
     if (context.cancelled()) throw Error(path.string() + ": opening was cancelled");
@@ -91,11 +137,12 @@ Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings) {
     state->geometry = measure_geometry(*loaded.document, loaded.document->mesh().positions);
     loaded.notes = loaded.document->file.messages;
     if (context.cancelled()) throw Error(path.string() + ": opening was cancelled");
+    context.bench().forget();
     // A mesh that cannot be smoothed can still be looked at.
     try {
-      const SmoothingProblem& problem = context.bench().problem(loaded.document, settings);
-      state->energy = measure_energy(problem, settings, state->positions());
-      loaded.notes.insert(loaded.notes.end(), problem.notes.begin(), problem.notes.end());
+      const Workbench::ProblemPtr problem = context.bench().problem(loaded.document, settings);
+      state->energy = measure_energy(*problem, settings, state->positions());
+      loaded.notes.insert(loaded.notes.end(), problem->notes.begin(), problem->notes.end());
     } catch (const Error& error) {
       loaded.notes.emplace_back(error.what());
     }
@@ -109,12 +156,13 @@ Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshSta
   return [document = std::move(document), settings = std::move(settings), original = std::move(original),
           current = std::move(current)](const JobContext& context) {
     context.progress("Measuring the energy", -1);
-    const SmoothingProblem& problem = context.bench().problem(document, settings);
-    EnergyMeasured measured{document, original->geometry, current->geometry, nullptr, nullptr, problem.notes};
-    measured.original = measure_energy(problem, settings, original->positions());
+    const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
+    EnergyMeasured measured{document, original->geometry, current->geometry, nullptr,
+                            nullptr,  problem->notes};
+    measured.original = measure_energy(*problem, settings, original->positions());
     measured.current = original->geometry == current->geometry
                            ? measured.original
-                           : measure_energy(problem, settings, current->positions());
+                           : measure_energy(*problem, settings, current->positions());
     context.publish(std::move(measured));
   };
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "model/engine.h"
+#include "model/recording.h"
 
 namespace isorelax::model {
 
@@ -19,6 +20,11 @@ struct RunRequest {
   MeshStatePtr start;
   unsigned iterations = 1;
   unsigned series = 0;  ///< for the rows
+  /// What is recorded into; a new one begins at the start.
+  std::shared_ptr<Recording> recording;
+  unsigned branch = 0;
+  std::vector<Breakpoint> breakpoints;
+  std::size_t step_budget = StepStore::kDefaultBudget;  ///< bytes of full step records
 };
 /// Runs the smoother from a state: Iterated as often as the view keeps up, then RunEnded; or RunFailed.
 [[nodiscard]] Engine::Job run_job(RunRequest request);

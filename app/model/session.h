@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "model/engine.h"
+#include "model/timeline.h"
 #include "model/undo.h"
+#include "quality/triangle_metrics.h"
 
 namespace isorelax::model {
 
@@ -24,6 +26,30 @@ struct Message {
 
 /// What the worker was asked to do to the positions.
 enum class Activity : std::uint8_t { idle, loading, running, saving };
+
+/// What "the next worst triangle" means.
+enum class WorstBy : std::uint8_t {
+  coloring,  ///< what the colours say
+  min_angle,
+  max_angle,
+  area,  ///< the largest
+  energy,
+  shape,
+  radius_ratio,
+  scaled_jacobian,
+  aspect_ratio
+};
+inline constexpr std::size_t kWorstBy = 9;
+/// "smallest angle", ...: for people.
+[[nodiscard]] std::string_view title(WorstBy by);
+
+/// What is known about the step that is looked at.
+struct Inspection {
+  std::optional<StepView> step;
+  std::optional<VertexExplanation> vertex;
+  std::optional<TriangleExplanation> triangle;
+  std::optional<VertexPath> path;
+};
 
 /// The only state of the program: the open document, settings, results, history. Everything else shows it.
 ///
@@ -42,8 +68,9 @@ struct Session {
 
   Activity activity = Activity::idle;
   std::vector<IterationRow> history;
-  std::optional<StepSummary> last_step;
+  std::optional<StepSummary> last_step;  ///< the one that led to what is shown
   std::optional<RunResult> last_run;
+  std::string broken_by;  ///< the breakpoint that ended the last run; empty: none
   /// Iterations that a paused run still has to do; 0 when Run starts a new one.
   unsigned remaining = 0;
   /// Counts up whenever the energy gets another meaning.
@@ -55,9 +82,22 @@ struct Session {
   /// Extent of each colouring's values over all states since the file was opened.
   std::array<ValueRange, kColorings> run_range{};
   std::optional<Index> selected_triangle;
+  std::optional<Index> selected_vertex;
+  std::optional<unsigned> selected_limit;  ///< a bit of Limit
+  WorstBy worst_by = WorstBy::coloring;
   std::size_t worst_rank = 0;                 ///< which of the worst triangles is selected, from 1
   std::vector<std::filesystem::path> recent;  ///< newest first
   std::string command_line;                   ///< what was last asked for with CopyCommandLine
+
+  Timeline timeline;
+  Inspection inspection;
+  std::vector<Breakpoint> breakpoints;
+  std::deque<BreakHit> hits;  ///< newest last, bounded
+  std::size_t step_budget = StepStore::kDefaultBudget;
+  StepMemory step_memory;
+  std::vector<unsigned> shown_branches;    ///< beside the present one
+  std::vector<MeshStatePtr> other_states;  ///< theirs
+  std::optional<Compared> comparison;
 
   Engine engine;
 
@@ -67,6 +107,11 @@ struct Session {
   }
   [[nodiscard]] bool is_running() const { return activity == Activity::running; }
   [[nodiscard]] bool can_smooth() const { return current && activity == Activity::idle; }
+  /// Whether another iteration than the one on screen was asked for.
+  [[nodiscard]] bool is_seeking() const { return seeking_; }
+  /// Whether a run from here goes on with the present branch, or over what is recorded of it; else it begins
+  /// a branch.
+  [[nodiscard]] bool continues_branch() const;
   /// The ends of the colour scale under the view's range mode.
   [[nodiscard]] ValueRange color_range() const;
 
@@ -75,7 +120,16 @@ struct Session {
   MeshStatePtr run_start_;
   std::vector<IterationRow> rows_at_start_;
   unsigned run_iterations_ = 0;
-  std::deque<std::function<void(Session&)>> after_run_;
+  Cursor cursor_at_start_;
+  std::vector<Cursor> taught_;  // where Teach has come to
+  unsigned scan_to_ = 0, scan_rest_ = 0;
+  bool seeking_ = false;
+  std::uint64_t request_count_ = 0;
+  std::uint64_t inspect_number_ = 0, seek_number_ = 0;
+  std::vector<double> worst_values_;  // of worst_values_of_ by worst_values_by_
+  std::shared_ptr<const Geometry> worst_values_of_;
+  WorstBy worst_values_by_ = WorstBy::coloring;
+  std::deque<std::function<void(Session&)>> when_idle_;
   std::uint64_t message_count_ = 0;
 };
 

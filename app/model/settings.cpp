@@ -25,6 +25,30 @@ std::string_view solver_option(Solver solver) {
   return "";
 }
 
+std::string_view method_option(Method method) {
+  switch (method) {
+    case Method::near_isometry:
+      return "near-isometry";
+    case Method::laplacian:
+      return "laplacian";
+    case Method::angle_based:
+      return "angle-based";
+  }
+  return "";
+}
+
+std::string_view title(Method method) {
+  switch (method) {
+    case Method::near_isometry:
+      return "Near-isometry";
+    case Method::laplacian:
+      return "Laplacian";
+    case Method::angle_based:
+      return "Angle-based";
+  }
+  return "";
+}
+
 std::string_view title(Coloring coloring) {
   switch (coloring) {
     case Coloring::none:

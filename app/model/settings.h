@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "smoothing/run.h"
 
@@ -16,8 +17,12 @@ enum class ReferenceKind : std::uint8_t { mean_area, edge_length, initial, file 
 /// Which creases are kept: those of the library's own thresholds, none, or those that turn by a given angle.
 enum class FeatureRule : std::uint8_t { automatic, none, angle };
 
+/// How vertices are told where to go: by the energy, or by what others do, to compare with.
+enum class Method : std::uint8_t { near_isometry, laplacian, angle_based };
+
 /// What a run does. Every field has an option of `isorelax smooth`.
 struct SmoothingSettings {
+  Method method = Method::near_isometry;
   Solver solver = Solver::automatic;
   double exponent = 2;  ///< p in the sum of E^p, 1..32
   double mu_a = 0;      ///< weight of the area term, 0..1; the shape term has 1 - mu_a
@@ -28,7 +33,8 @@ struct SmoothingSettings {
   FeatureRule features = FeatureRule::automatic;
   double feature_deg = 30;  ///< used with FeatureRule::angle
   unsigned iterations = 1000;
-  double tolerance = 1e-6;  ///< relative; 0: only the iteration count stops the run
+  double tolerance = 1e-6;    ///< relative; 0: only the iteration count stops the run
+  std::vector<Index> pinned;  ///< vertices held by the user, ascending
 
   bool operator==(const SmoothingSettings&) const = default;
 };
@@ -67,6 +73,7 @@ struct ViewSettings {
   bool wire = true;
   bool legend = true;
   bool show_original = false;
+  bool reasons = false;  ///< dots in the colours of what limited the vertices
   Shading shading = Shading::flat;
 
   bool operator==(const ViewSettings&) const = default;
@@ -74,6 +81,10 @@ struct ViewSettings {
 
 /// "auto", "jacobi", "newton", "lbfgs": as on the command line.
 [[nodiscard]] std::string_view solver_option(Solver solver);
+/// "near-isometry", "laplacian", "angle-based": as on the command line.
+[[nodiscard]] std::string_view method_option(Method method);
+/// "Near-isometry", ...: a title for people.
+[[nodiscard]] std::string_view title(Method method);
 /// "Min angle", "Energy", ...: a title for people.
 [[nodiscard]] std::string_view title(Coloring coloring);
 /// "deg" for angles, "x mean" for areas, empty where there is none.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/event.h"
+#include "model/timeline.h"
 
 namespace isorelax::model {
 
@@ -18,6 +19,7 @@ struct SettingsChange {
 struct PositionsChange {
   MeshStatePtr before, after;
   std::vector<IterationRow> rows_before, rows_after;
+  Cursor cursor_before{}, cursor_after{};
 };
 
 struct UndoEntry {

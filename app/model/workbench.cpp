@@ -1,15 +1,23 @@
 #include "model/workbench.h"
 
+#include <algorithm>
+
 #include "io/mesh_file.h"
 #include "mesh/error.h"
+#include "smoothing/baselines.h"
 
 namespace isorelax::model {
 namespace {
+
+/// Problems are large: those of the branches that are looked at in turn.
+constexpr std::size_t kProblemsKept = 4;
 
 // Settings that take no part in the problem do not make a new one.
 SmoothingSettings problem_part(SmoothingSettings settings) {
   settings.iterations = 0;
   settings.tolerance = 0;
+  settings.method = Method::near_isometry;
+  settings.solver = Solver::automatic;
   return settings;
 }
 
@@ -36,6 +44,7 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
   options.exponent = settings.exponent;
   options.reference = reference_choice(settings);
   options.boundary = settings.boundary;
+  options.pinned = settings.pinned;
   switch (settings.features) {
     case FeatureRule::automatic:
       break;
@@ -49,17 +58,71 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
   return options;
 }
 
-const SmoothingProblem& Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings) {
-  if (problem_ && document_ == document && settings_ == problem_part(settings)) return *problem_;
+std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, const SmoothingSettings& settings) {
+  constexpr RecordDetail kAll = RecordDetail::stages;
+  switch (settings.method) {
+    case Method::laplacian: {
+      LaplacianOptions options;
+      options.detail = kAll;
+      return make_laplacian(problem, options);
+    }
+    case Method::angle_based: {
+      AngleBasedOptions options;
+      options.detail = kAll;
+      return make_angle_based(problem, options);
+    }
+    case Method::near_isometry:
+      break;
+  }
+  return isorelax::make_smoother(problem, settings.solver, kAll);
+}
+
+Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings) {
+  const SmoothingSettings wanted = problem_part(settings);
+  const auto found = std::ranges::find_if(
+      problems_, [&](const Made& made) { return made.document == document && made.settings == wanted; });
+  if (found != problems_.end()) {
+    std::rotate(problems_.begin(), found, std::next(found));
+  } else {
+    while (problems_.size() >= kProblemsKept) problems_.pop_back();
+    const TriangleMesh& mesh = document->mesh();
+    problems_.push_front({document, wanted,
+                          std::make_shared<const SmoothingProblem>(
+                              make_problem(mesh.positions, mesh.triangles, problem_options(settings)))});
+  }
+  return problems_.front().problem;
+}
+
+Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings,
+                              Recording& recording) {
+  if (smoother_ && recording_ == &recording && at_ == recording.size()) return *smoother_;
   smoother_.reset();
-  problem_.reset();
-  const TriangleMesh& mesh = document->mesh();
-  problem_ = std::make_unique<SmoothingProblem>(
-      make_problem(mesh.positions, mesh.triangles, problem_options(settings)));
-  smoother_ = make_smoother(*problem_, settings.solver);
-  document_ = document;
-  settings_ = problem_part(settings);
-  return *problem_;
+  smoothed_ = problem(document, settings);
+  smoother_ = make_smoother(*smoothed_, settings);
+  recording.note_fresh_start();
+  recording_ = &recording;
+  at_ = recording.size();
+  return *smoother_;
+}
+
+void Workbench::forget() {
+  problems_.clear();
+  smoother_.reset();
+  smoothed_.reset();
+  recording_ = nullptr;
+  steps_.clear();
+  geometries_.clear();
+}
+
+std::shared_ptr<const Geometry> Workbench::geometry(const Recording* recording, unsigned iteration) {
+  const auto found = geometries_.find({recording, iteration});
+  return found == geometries_.end() ? nullptr : found->second.lock();
+}
+
+void Workbench::note_geometry(const Recording* recording, unsigned iteration,
+                              const std::shared_ptr<const Geometry>& geometry) {
+  std::erase_if(geometries_, [](const auto& entry) { return entry.second.expired(); });
+  geometries_[{recording, iteration}] = geometry;
 }
 
 }  // namespace isorelax::model

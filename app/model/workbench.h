@@ -1,31 +1,60 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 
 #include "model/document.h"
+#include "model/recording.h"
 #include "model/settings.h"
 #include "smoothing/run.h"
 
 namespace isorelax::model {
 
-/// The frozen problem of the open document, kept between runs while settings stay the same. Belongs to the
-/// worker.
+/// What the worker keeps between jobs: the frozen problems of the open document, the smoother of the last
+/// run, the full records of steps. Belongs to the worker.
 ///
 /// The problem is always made from the mesh as it was opened, so that a run that was paused and continued
 /// goes where one long run goes.
 class Workbench {
  public:
-  /// The problem for these settings; made anew only when they ask for another one. Throws Error.
-  const SmoothingProblem& problem(const DocumentPtr& document, const SmoothingSettings& settings);
-  /// A smoother on the last problem. Precondition: problem() was called and did not throw.
-  [[nodiscard]] Smoother& smoother() { return *smoother_; }
+  using ProblemPtr = std::shared_ptr<const SmoothingProblem>;
+
+  /// The problem for these settings; made anew only when it is none of the last few. Throws Error.
+  ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings);
+
+  /// A smoother for the next step of a recording: the one that made its last step, or a new one, of which the
+  /// recording takes note. Throws Error.
+  Smoother& smoother(const DocumentPtr& document, const SmoothingSettings& settings, Recording& recording);
+  /// The smoother has made the recording's last step.
+  void went_on(const Recording& recording) { at_ = recording.size(); }
+
+  /// Another document, or the same one read again, is open: nothing kept is good any more.
+  void forget();
+
+  [[nodiscard]] StepStore& steps() { return steps_; }
+  /// A measured geometry that is still in use somewhere; null otherwise.
+  [[nodiscard]] std::shared_ptr<const Geometry> geometry(const Recording* recording, unsigned iteration);
+  void note_geometry(const Recording* recording, unsigned iteration,
+                     const std::shared_ptr<const Geometry>& geometry);
 
  private:
-  DocumentPtr document_;
-  SmoothingSettings settings_;
-  std::unique_ptr<SmoothingProblem> problem_;
+  struct Made {
+    DocumentPtr document;
+    SmoothingSettings settings;
+    ProblemPtr problem;
+  };
+  std::deque<Made> problems_;  // newest first
+  ProblemPtr smoothed_;        // what the smoother works on
   std::unique_ptr<Smoother> smoother_;
+  const Recording* recording_ = nullptr;  // whose last step the smoother made
+  unsigned at_ = 0;                       // how many steps that had
+  StepStore steps_;
+  std::map<std::pair<const Recording*, unsigned>, std::weak_ptr<const Geometry>> geometries_;
 };
+
+/// A smoother on a problem that keeps all detail of its steps. Keeps a reference to the problem.
+[[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem,
+                                                      const SmoothingSettings& settings);
 
 /// The library's options for these settings. Reads the reference file; throws Error.
 [[nodiscard]] ProblemOptions problem_options(const SmoothingSettings& settings);

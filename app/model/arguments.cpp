@@ -1,0 +1,188 @@
+#include "model/arguments.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <functional>
+#include <map>
+
+#include "model/command.h"
+
+namespace isorelax::model {
+namespace {
+
+std::string number_word(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string reference_word(const SmoothingSettings& s) {
+  switch (s.reference) {
+    case ReferenceKind::mean_area:
+      return "equilateral";
+    case ReferenceKind::edge_length:
+      return "equilateral:" + number_word(s.edge_length);
+    case ReferenceKind::initial:
+      return "initial";
+    case ReferenceKind::file:
+      break;
+  }
+  return s.reference_file;
+}
+
+constexpr std::array<std::string_view, 3> kBoundaryWords{"fixed", "slide", "free"};
+
+std::string features_word(const SmoothingSettings& s) {
+  switch (s.features) {
+    case FeatureRule::automatic:
+      return "auto";
+    case FeatureRule::none:
+      return "none";
+    case FeatureRule::angle:
+      break;
+  }
+  return number_word(s.feature_deg);
+}
+
+std::string pin_word(const std::vector<Index>& pinned) {
+  std::string word = "vertices:";
+  for (const Index v : pinned) word += (word.back() == ':' ? "" : ",") + std::to_string(v);
+  return word;
+}
+
+template <typename T>
+bool read_number(std::string_view word, T& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+/// Which of several words this is.
+template <typename Choice, typename NameOf>
+bool read_choice(const std::string& word, std::initializer_list<Choice> choices, const NameOf& name,
+                 Choice& value) {
+  const auto* found = std::ranges::find_if(choices, [&](Choice c) { return name(c) == word; });
+  if (found == choices.end()) return false;
+  value = *found;
+  return true;
+}
+
+bool read_reference(const std::string& word, SmoothingSettings& s) {
+  constexpr std::string_view kEdge = "equilateral:";
+  if (word == "equilateral") {
+    s.reference = ReferenceKind::mean_area;
+  } else if (word.starts_with(kEdge)) {
+    s.reference = ReferenceKind::edge_length;
+    return read_number(std::string_view(word).substr(kEdge.size()), s.edge_length);
+  } else if (word == "initial") {
+    s.reference = ReferenceKind::initial;
+  } else {
+    s.reference = ReferenceKind::file;
+    s.reference_file = word;
+  }
+  return true;
+}
+
+bool read_features(const std::string& word, SmoothingSettings& s) {
+  if (word == "auto")
+    s.features = FeatureRule::automatic;
+  else if (word == "none")
+    s.features = FeatureRule::none;
+  else
+    s.features = FeatureRule::angle;
+  return s.features != FeatureRule::angle || read_number(word, s.feature_deg);
+}
+
+bool read_pins(const std::string& word, SmoothingSettings& s) {
+  constexpr std::string_view kVertices = "vertices:";
+  if (!word.starts_with(kVertices)) return false;
+  s.pinned.clear();
+  for (std::size_t at = kVertices.size(); at <= word.size();) {
+    const std::size_t comma = std::min(word.find(',', at), word.size());
+    Index id = 0;
+    if (!read_number(std::string_view(word).substr(at, comma - at), id)) return false;
+    s.pinned.push_back(id);
+    at = comma + 1;
+  }
+  std::ranges::sort(s.pinned);
+  return true;
+}
+
+using Reader = std::function<bool(const std::string&, SmoothingSettings&)>;
+
+const std::map<std::string, Reader>& readers() {
+  using S = SmoothingSettings;
+  static const std::map<std::string, Reader> kReaders{
+      {"--method",
+       [](const std::string& w, S& s) {
+         return read_choice(w, {Method::near_isometry, Method::laplacian, Method::angle_based}, method_option,
+                            s.method);
+       }},
+      {"--solver",
+       [](const std::string& w, S& s) {
+         return read_choice(w, {Solver::automatic, Solver::jacobi, Solver::newton, Solver::lbfgs},
+                            solver_option, s.solver);
+       }},
+      {"--exponent", [](const std::string& w, S& s) { return read_number(w, s.exponent); }},
+      {"--mu", [](const std::string& w, S& s) { return read_number(w, s.mu_a); }},
+      {"--reference", read_reference},
+      {"--boundary",
+       [](const std::string& w, S& s) {
+         return read_choice(
+             w, {BoundaryRule::fixed, BoundaryRule::slide, BoundaryRule::free},
+             [](BoundaryRule rule) { return kBoundaryWords.at(static_cast<std::size_t>(rule)); }, s.boundary);
+       }},
+      {"--features", read_features},
+      {"--iterations", [](const std::string& w, S& s) { return read_number(w, s.iterations); }},
+      {"--tolerance", [](const std::string& w, S& s) { return read_number(w, s.tolerance); }},
+      {"--pin", read_pins},
+      // Results do not depend on the first. Where the second held vertices, the steps say so.
+      {"--threads", [](const std::string&, S&) { return true; }},
+      {"--max-deviation", [](const std::string&, S&) { return true; }}};
+  return kReaders;
+}
+
+}  // namespace
+
+std::vector<std::string> to_words(const SmoothingSettings& s) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, std::string value) {
+    words.emplace_back(option);
+    words.push_back(std::move(value));
+  };
+  if (s.method == Method::near_isometry) {
+    add("--solver", std::string(solver_option(s.solver)));
+    add("--exponent", number_word(s.exponent));
+  } else {
+    add("--method", std::string(method_option(s.method)));
+  }
+  add("--mu", number_word(s.mu_a));
+  add("--reference", reference_word(s));
+  add("--boundary", std::string(kBoundaryWords.at(static_cast<std::size_t>(s.boundary))));
+  add("--features", features_word(s));
+  if (!s.pinned.empty()) add("--pin", pin_word(s.pinned));
+  add("--iterations", std::to_string(s.iterations));
+  add("--tolerance", number_word(s.tolerance));
+  add("--max-deviation", "inf");
+  return words;
+}
+
+std::optional<SmoothingSettings> from_words(std::span<const std::string> words) {
+  SmoothingSettings settings;
+  if (words.size() % 2 != 0) return std::nullopt;
+  for (std::size_t k = 0; k < words.size(); k += 2) {
+    const auto reader = readers().find(words[k]);
+    if (reader == readers().end() || !reader->second(words[k + 1], settings)) return std::nullopt;
+  }
+  return settings;
+}
+
+Trace about(const Document& document, const SmoothingSettings& settings) {
+  Trace trace;
+  trace.program = "isorelax " ISORELAX_VERSION;
+  trace.input = document.path.string();
+  trace.arguments = to_words(settings);
+  return trace;
+}
+
+}  // namespace isorelax::model

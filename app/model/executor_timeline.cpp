@@ -1,0 +1,464 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "model/executor.h"
+#include "model/jobs.h"
+
+namespace isorelax::model {
+namespace {
+
+constexpr std::size_t kHitsKept = 1000;
+constexpr std::size_t kMostBeside = 3;
+
+bool any_active(const std::vector<Breakpoint>& points) {
+  return std::ranges::any_of(points, [](const Breakpoint& p) { return p.enabled && p.predicate; });
+}
+
+bool has_converged(const RunResult& result) {
+  return result.stopped != StopReason::iterations && result.stopped != StopReason::cancelled;
+}
+
+}  // namespace
+
+std::string_view title(WorstBy by) {
+  constexpr std::array<std::string_view, kWorstBy> kTitles{
+      "what the colours say", "smallest angle",  "largest angle", "area", "energy", "shape K",
+      "radius ratio",         "scaled Jacobian", "aspect ratio"};
+  return kTitles.at(static_cast<std::size_t>(by));
+}
+
+bool Session::continues_branch() const {
+  const Branch* branch = timeline.current();
+  return branch != nullptr && branch->not_redone.empty() && same_steps(branch->settings, smoothing) &&
+         timeline.cursor.iteration >= branch->start &&
+         (!branch->from_file || timeline.cursor.iteration < branch->tip());
+}
+
+void Executor::go_on_when_idle() {
+  while (!s_.when_idle_.empty() && s_.activity == Activity::idle && !s_.seeking_) {
+    const auto next = std::move(s_.when_idle_.front());
+    s_.when_idle_.pop_front();
+    next(s_);
+  }
+}
+
+Place Executor::place_of(unsigned branch, unsigned iteration) const {
+  if (s_.timeline.empty()) return {};
+  const Branch& held = s_.timeline.branches[s_.timeline.holder(branch, iteration)];
+  return {held.recording, iteration - held.start, held.not_redone};
+}
+
+PathRequest Executor::path_of(unsigned branch, unsigned last) const {
+  PathRequest path{s_.document, s_.smoothing, {}, {}};
+  if (s_.timeline.empty()) return path;
+  path.settings = s_.timeline.branches[branch].settings;
+  for (unsigned b = branch, end = last;;) {
+    const Branch& held = s_.timeline.branches[b];
+    if (end >= held.start) {
+      path.segments.insert(path.segments.begin(), {held.recording, end - held.start, held.not_redone});
+      path.from.insert(path.from.begin(), 0);
+      end = held.start;
+    }
+    if (!held.parent) break;
+    b = *held.parent;
+  }
+  return path;
+}
+
+// What is recorded already need not be done again: to its end, or to the first breakpoint in it.
+bool Executor::run_over_recorded(unsigned iterations) {
+  if (!s_.continues_branch()) return false;
+  const unsigned at = s_.timeline.cursor.branch;
+  const Branch& branch = s_.timeline.branches[at];
+  const unsigned from = s_.timeline.cursor.iteration;
+  if (from >= branch.tip()) return false;
+  const unsigned to = std::min(from + iterations, branch.tip());
+  const unsigned rest = from + iterations - to;
+  const bool ended = rest > 0 && branch.result && has_converged(*branch.result);
+  if (any_active(s_.breakpoints)) {
+    s_.activity = Activity::running;
+    s_.broken_by.clear();
+    s_.engine.post("run", scan_job({s_.document, branch.settings, branch.recording, at, branch.start, from,
+                                    to, s_.breakpoints}));
+    s_.scan_rest_ = ended ? 0 : rest;
+    s_.scan_to_ = to;
+    return true;
+  }
+  seek(at, to);
+  if (ended) {
+    s_.last_run = branch.result;
+  } else if (rest > 0 && !branch.from_file) {
+    s_.when_idle_.push_back([rest](Session& s) { Executor(s).start_run(rest); });
+  }
+  return true;
+}
+
+void Executor::operator()(Scanned& event) {
+  s_.activity = Activity::idle;
+  s_.run_start_.reset();
+  for (BreakHit& hit : event.hits) s_.hits.push_back(std::move(hit));
+  while (s_.hits.size() > kHitsKept) s_.hits.pop_front();
+  s_.broken_by = event.broken_by;
+  seek(s_.timeline.cursor.branch, event.stop.value_or(s_.scan_to_));
+  if (!event.broken_by.empty())
+    say(MessageKind::info, "Stopped at iteration " + std::to_string(*event.stop) + ": " + event.broken_by);
+  if (!event.stop && s_.scan_rest_ > 0)
+    s_.when_idle_.push_back([rest = s_.scan_rest_](Session& s) { Executor(s).start_run(rest); });
+}
+
+// Runs go on with the present branch at its end; everywhere else, or with other settings, they begin one.
+void Executor::begin_branch() {
+  Timeline& timeline = s_.timeline;
+  if (s_.continues_branch()) return;
+  Branch branch;
+  branch.settings = s_.smoothing;
+  branch.start = timeline.cursor.iteration;
+  if (!timeline.empty()) branch.parent = timeline.cursor.branch;
+  branch.name = branch_name(s_.smoothing, timeline.current());
+  branch.recording = std::make_shared<Recording>();
+  if (s_.current->energy) {
+    const QualityReport& q = s_.current->quality();
+    branch.rows.push_back(
+        {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
+  }
+  std::erase_if(s_.history, [&](const IterationRow& row) { return row.iteration > branch.start; });
+  timeline.cursor.branch = static_cast<unsigned>(timeline.branches.size());
+  timeline.branches.push_back(std::move(branch));
+}
+
+void Executor::drop_empty_branch() {
+  Timeline& timeline = s_.timeline;
+  if (timeline.empty() || !timeline.branches.back().steps.empty()) return;
+  const unsigned dropped = static_cast<unsigned>(timeline.branches.size()) - 1;
+  if (timeline.cursor.branch == dropped) timeline.cursor.branch = timeline.branches.back().parent.value_or(0);
+  std::erase(s_.shown_branches, dropped);
+  timeline.branches.pop_back();
+}
+
+void Executor::seek(unsigned branch, unsigned iteration) {
+  Timeline& timeline = s_.timeline;
+  timeline.cursor.branch = branch;
+  timeline.cursor.iteration = iteration;
+  s_.last_run.reset();
+  s_.remaining = 0;
+  if (!timeline.empty()) s_.history = timeline.rows(branch);
+  s_.seeking_ = true;
+  s_.seek_number_ = ++s_.request_count_;
+  SeekRequest request{s_.seek_number_, s_.document, s_.smoothing, place_of(branch, iteration), iteration, {}};
+  for (const unsigned other : s_.shown_branches)
+    request.others.push_back(place_of(other, std::min(iteration, timeline.branches[other].tip())));
+  s_.engine.post("seek", seek_job(std::move(request)));
+}
+
+void Executor::operator()(const Seek& command) {
+  if (!s_.current) return;
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  if (s_.activity != Activity::idle || s_.timeline.empty()) return;
+  const Timeline& timeline = s_.timeline;
+  const unsigned branch = std::min(command.branch.value_or(timeline.cursor.branch),
+                                   static_cast<unsigned>(timeline.branches.size()) - 1);
+  const unsigned iteration = std::min(command.iteration, timeline.branches[branch].tip());
+  if (branch == timeline.cursor.branch && iteration == timeline.cursor.iteration && !s_.seeking_) return;
+  // Another branch brings its settings: Run goes on with it.
+  if (branch != timeline.cursor.branch) {
+    SmoothingSettings settings = timeline.branches[branch].settings;
+    settings.iterations = s_.smoothing.iterations;
+    s_.smoothing = settings;
+  }
+  seek(branch, iteration);
+}
+
+void Executor::operator()(Sought& event) {
+  if (event.number == s_.seek_number_) s_.seeking_ = false;
+  // With the iteration shown already or a document opened since, it comes too late.
+  if (event.state->positions().size() != s_.original->positions().size()) return;
+  if (s_.timeline.cursor.iteration == 0 && event.state->iteration == 0 &&
+      std::ranges::equal(event.state->positions(), s_.original->positions()))
+    show(s_.original);
+  else
+    show(event.state);
+  s_.other_states = std::move(event.others);
+  const StepSummary* step = s_.timeline.step(s_.timeline.cursor.branch, event.state->iteration);
+  s_.last_step = step != nullptr ? std::optional(*step) : std::nullopt;
+  if (s_.seeking_) return;
+  measure_energy_if_changed();
+  ask_about_step();
+  go_on_when_idle();
+}
+
+void Executor::operator()(const SetStage& command) {
+  if (!s_.current) return;
+  s_.timeline.cursor.stage = command.stage;
+  ask_about_step();
+}
+
+void Executor::operator()(const StepStage& command) {
+  if (!s_.current || s_.is_running()) return;
+  Cursor& cursor = s_.timeline.cursor;
+  const StepSummary* step = s_.timeline.step(cursor.branch, cursor.iteration);
+  std::vector<Stage> stages = stages_of(step != nullptr ? step->fold_passes + step->energy_passes : 0);
+  const bool forward = command.direction > 0;
+  if (!cursor.stage) {
+    cursor.stage = forward || cursor.iteration == 0 ? stages.front() : stages.back();
+    ask_about_step();
+    return;
+  }
+  const auto found = std::ranges::find(stages, *cursor.stage);
+  const auto index = found == stages.end() ? 0 : found - stages.begin();
+  const auto next = index + (forward ? 1 : -1);
+  if (next >= 0 && next < static_cast<std::ptrdiff_t>(stages.size())) {
+    cursor.stage = stages[static_cast<std::size_t>(next)];
+    ask_about_step();
+    return;
+  }
+  // Over the end of the step, as far as there are others.
+  if (forward ? cursor.iteration >= s_.timeline.last() : cursor.iteration <= 1) return;
+  const unsigned iteration = forward ? cursor.iteration + 1 : cursor.iteration - 1;
+  cursor.stage = forward ? stages.front() : Stage{StageKind::moved};
+  seek(cursor.branch, iteration);
+}
+
+// Asks the worker for the record of the shown step, and for what is selected in it.
+void Executor::ask_about_step() {
+  const bool wanted =
+      s_.selected_vertex || s_.selected_triangle || s_.timeline.cursor.stage || s_.view.reasons;
+  if (!s_.current || s_.is_running() || s_.seeking_ || !wanted) return;
+  s_.inspect_number_ = ++s_.request_count_;
+  const Cursor& cursor = s_.timeline.cursor;
+  InspectRequest request{s_.inspect_number_, s_.document,          s_.smoothing,  {},
+                         s_.selected_vertex, s_.selected_triangle, s_.step_budget};
+  const unsigned iteration = std::max(1U, cursor.iteration);
+  if (!s_.timeline.empty() && iteration <= s_.timeline.last()) {
+    // The holder of an iteration at which a branch begins is the branch; its step is the parent's.
+    unsigned holder = cursor.branch;
+    while (s_.timeline.branches[holder].start >= iteration && s_.timeline.branches[holder].parent)
+      holder = *s_.timeline.branches[holder].parent;
+    const Branch& branch = s_.timeline.branches[holder];
+    request.settings = branch.settings;
+    request.place = {branch.recording, iteration - branch.start, branch.not_redone};
+  }
+  s_.engine.post("inspect", inspect_job(std::move(request)));
+}
+
+void Executor::operator()(Inspected& event) {
+  s_.step_memory = event.memory;
+  if (event.number != s_.inspect_number_ || s_.seeking_) return;
+  Inspection& inspection = s_.inspection;
+  inspection.step = StepView{s_.timeline.cursor, std::move(event.record), std::move(event.before),
+                             std::move(event.mismatch)};
+  inspection.vertex = std::move(event.vertex);
+  inspection.triangle = std::move(event.triangle);
+  follow_selection();
+}
+
+void Executor::follow_selection() {
+  if (!s_.selected_vertex || s_.timeline.empty() || s_.is_running()) return;
+  const unsigned branch = s_.timeline.cursor.branch;
+  const unsigned last = s_.timeline.last();
+  const auto& path = s_.inspection.path;
+  if (path && path->branch == branch && path->vertex == *s_.selected_vertex &&
+      path->positions.size() == last + 1)
+    return;
+  PathRequest line = path_of(branch, last);
+  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, std::move(line.segments), line.from}));
+}
+
+void Executor::operator()(Followed& event) {
+  if (s_.selected_vertex != event.vertex || s_.timeline.cursor.branch != event.branch) return;
+  s_.inspection.path = VertexPath{event.branch, event.vertex, std::move(event.positions)};
+}
+
+void Executor::operator()(const SelectVertex& command) {
+  if (!s_.document || command.vertex >= s_.document->mesh().vertex_count()) {
+    if (s_.document)
+      say(MessageKind::info, "There is no vertex " + std::to_string(command.vertex) + ": the last is " +
+                                 std::to_string(s_.document->mesh().vertex_count() - 1) + ".");
+    return;
+  }
+  clear_selection();
+  s_.selected_vertex = command.vertex;
+  ask_about_step();
+}
+
+void Executor::operator()(const SelectTriangle& command) {
+  if (!s_.document || command.triangle >= s_.document->mesh().triangle_count()) {
+    if (s_.document)
+      say(MessageKind::info, "There is no triangle " + std::to_string(command.triangle) + ": the last is " +
+                                 std::to_string(s_.document->mesh().triangle_count() - 1) + ".");
+    return;
+  }
+  clear_selection();
+  s_.selected_triangle = command.triangle;
+  ask_about_step();
+}
+
+void Executor::clear_selection() {
+  s_.selected_triangle.reset();
+  s_.selected_vertex.reset();
+  s_.worst_rank = 0;
+  s_.inspection.vertex.reset();
+  s_.inspection.triangle.reset();
+  s_.inspection.path.reset();
+}
+
+void Executor::operator()(const SelectLimited& command) {
+  s_.selected_limit = command.bit;
+  if (command.bit && !s_.view.reasons) s_.view.reasons = true;
+  ask_about_step();
+}
+
+void Executor::operator()(const SetWorstBy& command) {
+  s_.worst_by = command.by;
+  s_.worst_rank = 0;
+}
+
+void Executor::operator()(const TogglePin& command) {
+  if (!s_.document || command.vertex >= s_.document->mesh().vertex_count() || s_.is_running()) return;
+  SmoothingSettings settings = s_.smoothing;
+  const auto at = std::ranges::lower_bound(settings.pinned, command.vertex);
+  const bool held = at != settings.pinned.end() && *at == command.vertex;
+  if (held)
+    settings.pinned.erase(at);
+  else
+    settings.pinned.insert(at, command.vertex);
+  (*this)(SetSmoothing{settings, (held ? "Unpin vertex " : "Pin vertex ") + std::to_string(command.vertex)});
+  s_.undo.stop_merging();
+}
+
+void Executor::operator()(const SetBreakpoints& command) {
+  s_.breakpoints = command.breakpoints;
+}
+
+void Executor::operator()(const SetStepBudget& command) {
+  s_.step_budget = command.bytes;
+  s_.engine.post("budget", [bytes = command.bytes](const JobContext& context) {
+    context.bench().steps().set_budget(bytes);
+  });
+}
+
+void Executor::operator()(const ShowBranches& command) {
+  s_.shown_branches.clear();
+  for (const unsigned branch : command.branches)
+    if (branch < s_.timeline.branches.size() && s_.shown_branches.size() < kMostBeside)
+      s_.shown_branches.push_back(branch);
+  s_.other_states.clear();
+  if (!s_.timeline.empty() && !s_.is_running() && s_.current)
+    seek(s_.timeline.cursor.branch, s_.timeline.cursor.iteration);
+}
+
+void Executor::operator()(const CompareBranches& command) {
+  const auto count = s_.timeline.branches.size();
+  if (command.first >= count || command.second >= count || s_.is_running()) return;
+  const auto whole = [&](unsigned branch) { return path_of(branch, s_.timeline.branches[branch].tip()); };
+  s_.engine.post("compare",
+                 compare_job(whole(command.first), whole(command.second), command.first, command.second));
+}
+
+void Executor::operator()(Compared& event) {
+  s_.comparison = std::move(event);
+}
+
+// One method after the other from the same iteration; then all of them side by side.
+void Executor::operator()(const Teach& /*command*/) {
+  if (!s_.can_smooth()) return;
+  const Cursor from = s_.timeline.cursor;
+  const SmoothingSettings settings = s_.smoothing;
+  s_.taught_.clear();
+  for (const Method method : {Method::laplacian, Method::angle_based, Method::near_isometry}) {
+    s_.when_idle_.push_back([from](Session& s) {
+      if (!s.timeline.empty()) Executor(s).seek(from.branch, from.iteration);
+    });
+    s_.when_idle_.push_back([settings, method](Session& s) {
+      s.smoothing = settings;
+      s.smoothing.method = method;
+      Executor(s).start_run(settings.iterations);
+    });
+    s_.when_idle_.push_back([](Session& s) { s.taught_.push_back(s.timeline.cursor); });
+  }
+  s_.when_idle_.push_back([](Session& s) {
+    std::vector<unsigned> beside;
+    for (const Cursor& cursor : s.taught_)
+      if (cursor.branch != s.timeline.cursor.branch) beside.push_back(cursor.branch);
+    execute(s, ShowBranches{beside});
+  });
+  go_on_when_idle();
+}
+
+void Executor::operator()(const SaveTrace& command) {
+  if (s_.timeline.empty()) {
+    say(MessageKind::error, "There is no run to save yet.");
+    return;
+  }
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  const unsigned branch = s_.timeline.cursor.branch;
+  s_.engine.post("", save_trace_job(path_of(branch, s_.timeline.branches[branch].tip()), command.path));
+}
+
+void Executor::operator()(Wrote& event) {
+  say(MessageKind::info, "Saved " + event.path.string());
+}
+
+void Executor::operator()(const OpenTrace& command) {
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.engine.cancel();
+  s_.activity = Activity::loading;
+  s_.engine.post("load", open_trace_job(command.path, {}));
+}
+
+void Executor::operator()(const AddTrace& command) {
+  if (!s_.document) {
+    (*this)(OpenTrace{command.path});
+    return;
+  }
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.engine.post("", open_trace_job(command.path, s_.document));
+}
+
+void Executor::operator()(TraceOpened& event) {
+  const bool alone = event.document != nullptr;
+  if (alone) {
+    Loaded loaded{std::move(event.document), std::move(event.state), {}};
+    if (event.settings) s_.smoothing = *event.settings;
+    (*this)(loaded);
+    s_.recent.erase(s_.recent.begin());  // the mesh in it may be in no file
+    remember_recent(event.path);
+  }
+  Branch branch;
+  branch.name = event.path.filename().string();
+  branch.settings = event.settings.value_or(s_.smoothing);
+  branch.rows = std::move(event.rows);
+  branch.steps = std::move(event.steps);
+  branch.ended = event.head.stopped_because;
+  branch.recording = std::move(event.recording);
+  branch.from_file = true;
+  if (!event.settings)
+    branch.not_redone =
+        "the run was made with \"" + event.head.arguments_text() + "\", which the editor has no settings for";
+  s_.timeline.branches.push_back(std::move(branch));
+  const auto added = static_cast<unsigned>(s_.timeline.branches.size()) - 1;
+  if (alone) {
+    s_.timeline.cursor = {added, 0, {}};
+    s_.history = s_.timeline.rows(added);
+    say(MessageKind::info,
+        "Opened a run of " + std::to_string(s_.timeline.last()) + " iterations by " + event.head.program);
+  } else {
+    say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
+  }
+}
+
+void Executor::forget_runs() {
+  s_.timeline = {};
+  s_.inspection = {};
+  s_.hits.clear();
+  s_.step_memory = {};
+  s_.shown_branches.clear();
+  s_.other_states.clear();
+  s_.comparison.reset();
+  s_.selected_limit.reset();
+  s_.broken_by.clear();
+  s_.seeking_ = false;
+  s_.smoothing.pinned.clear();
+}
+
+}  // namespace isorelax::model

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "model/mesh_state.h"
+#include "trace/recorder.h"
+
+namespace isorelax::model {
+
+/// The iterations of one branch, in core/trace's form: positions as deltas, and a few whole ones in between
+/// so that any iteration is near one. Belongs to the worker: no other thread touches what is in it.
+class Recording {
+ public:
+  /// Begins at these positions; `about` says what the run is.
+  void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start);
+  /// A run that was recorded before.
+  void take(Trace trace);
+  /// Whether it can go on: not for a run that was read from a file.
+  [[nodiscard]] bool can_grow() const { return recorder_ != nullptr; }
+  [[nodiscard]] bool has_begun() const { return recorder_ != nullptr || taken_ != nullptr; }
+
+  /// Adds the next step.
+  void add(const StepRecord& record, std::span<const Vec3> positions);
+  [[nodiscard]] const Trace& trace() const { return recorder_ ? recorder_->trace() : *taken_; }
+  [[nodiscard]] Trace& trace() { return recorder_ ? recorder_->trace() : *taken_; }
+  [[nodiscard]] unsigned size() const { return static_cast<unsigned>(trace().iterations.size()); }
+
+  /// Positions after so many iterations of the branch. Throws Error for a damaged delta.
+  [[nodiscard]] std::vector<Vec3> positions_at(unsigned iteration);
+
+  /// The iterations from which a smoother started that knew nothing of the steps before, ascending.
+  [[nodiscard]] const std::vector<unsigned>& fresh_starts() const { return fresh_starts_; }
+  void note_fresh_start() { fresh_starts_.push_back(size()); }
+
+ private:
+  void keep(unsigned iteration, std::span<const Vec3> positions);
+
+  std::unique_ptr<TraceRecorder> recorder_;
+  std::unique_ptr<Trace> taken_;
+  std::map<unsigned, std::vector<Vec3>> whole_;  // iteration -> positions
+  unsigned stride_ = 8;                          // between whole ones
+  std::vector<unsigned> fresh_starts_;
+};
+
+/// Full step records of the newest steps, as many as fit into a budget; and states that somebody still holds,
+/// so that the same iteration is the same state. Belongs to the worker.
+class StepStore {
+ public:
+  static constexpr std::size_t kDefaultBudget = std::size_t{1} << 30U;  // bytes
+
+  /// Drops the oldest records that no longer fit.
+  void set_budget(std::size_t bytes);
+  void add(const Recording* recording, unsigned iteration, std::shared_ptr<const StepRecord> record);
+  /// Null when it is not kept.
+  [[nodiscard]] std::shared_ptr<const StepRecord> find(const Recording* recording, unsigned iteration) const;
+  void clear();
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t count() const { return kept_.size(); }
+  [[nodiscard]] bool fits(std::size_t bytes) const { return bytes <= budget_; }
+
+ private:
+  using Key = std::pair<const Recording*, unsigned>;
+  struct Kept {
+    Key key;
+    std::shared_ptr<const StepRecord> record;
+    std::size_t bytes;
+  };
+  void drop_oldest();
+
+  std::deque<Kept> kept_;
+  std::size_t bytes_ = 0;
+  std::size_t budget_ = kDefaultBudget;
+};
+
+}  // namespace isorelax::model

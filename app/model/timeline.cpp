@@ -1,0 +1,80 @@
+#include "model/timeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace isorelax::model {
+
+unsigned Timeline::longest() const {
+  unsigned last = 0;
+  for (const Branch& branch : branches) last = std::max(last, branch.tip());
+  return last;
+}
+
+unsigned Timeline::holder(unsigned branch, unsigned iteration) const {
+  while (iteration < branches[branch].start && branches[branch].parent) branch = *branches[branch].parent;
+  return branch;
+}
+
+const StepSummary* Timeline::step(unsigned branch, unsigned iteration) const {
+  if (empty() || iteration == 0) return nullptr;
+  while (iteration <= branches[branch].start && branches[branch].parent) branch = *branches[branch].parent;
+  const Branch& held = branches[branch];
+  if (iteration <= held.start || iteration > held.tip()) return nullptr;
+  return &held.steps[iteration - held.start - 1];
+}
+
+std::vector<IterationRow> Timeline::rows(unsigned branch) const {
+  std::vector<IterationRow> rows;
+  const Branch& own = branches[branch];
+  if (own.parent) {
+    rows = this->rows(*own.parent);
+    std::erase_if(rows, [&](const IterationRow& row) { return row.iteration > own.start; });
+    // The same energy needs no second point at the fork.
+    if (!rows.empty() && !own.rows.empty() && rows.back().series == own.rows.front().series) rows.pop_back();
+  }
+  rows.insert(rows.end(), own.rows.begin(), own.rows.end());
+  return rows;
+}
+
+bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b) {
+  SmoothingSettings other = b;
+  other.iterations = a.iterations;
+  other.tolerance = a.tolerance;
+  return a == other;
+}
+
+std::string branch_name(const SmoothingSettings& settings, const Branch* parent) {
+  if (parent == nullptr || parent->settings.method != settings.method)
+    return std::string(title(settings.method));
+  const SmoothingSettings& from = parent->settings;
+  std::array<char, 64> text{};
+  if (from.mu_a != settings.mu_a)
+    std::snprintf(text.data(), text.size(), "\xCE\xBC\xE2\x82\x90 %.2f", settings.mu_a);
+  else if (from.solver != settings.solver)
+    std::snprintf(text.data(), text.size(), "%s", std::string(solver_option(settings.solver)).c_str());
+  else if (from.exponent != settings.exponent)
+    std::snprintf(text.data(), text.size(), "exponent %g", settings.exponent);
+  else if (from.reference != settings.reference || from.reference_file != settings.reference_file ||
+           from.edge_length != settings.edge_length)
+    return "another reference";
+  else if (from.boundary != settings.boundary)
+    return "another boundary rule";
+  else if (from.features != settings.features || from.feature_deg != settings.feature_deg)
+    return "other features";
+  else if (from.pinned != settings.pinned)
+    return "other pins";
+  else
+    return "again";
+  return text.data();
+}
+
+std::vector<Stage> stages_of(std::size_t passes) {
+  std::vector<Stage> stages{{StageKind::gradient}, {StageKind::tangent}, {StageKind::proposed}};
+  for (unsigned pass = 0; pass < passes; ++pass) stages.push_back({StageKind::control, pass});
+  stages.push_back({StageKind::moved});
+  return stages;
+}
+
+}  // namespace isorelax::model
