@@ -9,6 +9,7 @@
 
 #include "editor/embedded.h"
 #include "editor/session_view.h"
+#include "editor/step_overlay.h"
 #include "mesh/error.h"
 #include "render/embedded.h"
 #include "render/overlay.h"
@@ -43,7 +44,12 @@ render::Camera between(const render::Camera& a, const render::Camera& b, double 
 }  // namespace
 
 Editor::Editor(render::GlLoader loader, Motion motion)
-    : interface_(font_files()), current_(loader), before_(loader), painter_(loader), motion_(motion) {}
+    : interface_(font_files()),
+      current_(loader),
+      before_(loader),
+      loader_(loader),
+      painter_(loader),
+      motion_(motion) {}
 
 void Editor::frame(const FrameOptions& options) {
   const auto start = Clock::now();
@@ -66,6 +72,7 @@ void Editor::frame(const FrameOptions& options) {
   ui::ViewportImage image;
   if (current_.drawn) image.texture = texture_id(current_.renderer.color_texture());
   if (before_.drawn) image.before = texture_id(before_.renderer.color_texture());
+  for (const auto& other : others_) image.others.push_back(texture_id(other->renderer.color_texture()));
   carry_out(interface_.frame(
       session_,
       {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
@@ -88,9 +95,8 @@ void Editor::follow_document() {
 
 // Keeps the mesh clear of the legend.
 render::FitOptions Editor::fit_options() {
-  const Shown shown{session_.document, session_.current, session_.original};
   ViewScene scene;
-  return {.margin = 0.07, .right = render::legend_share(scene.make(shown, present_view()), pane())};
+  return {.margin = 0.07, .right = render::legend_share(scene.make(shown_now(), present_view()), pane())};
 }
 
 void Editor::move_camera(double time) {
@@ -123,8 +129,26 @@ bool Editor::shows_before() const {
   return mode != ui::CompareMode::off && mode != ui::CompareMode::change;
 }
 
-// What one picture of the viewport has: half of it where two stand side by side.
+// The present state; inside a step the mesh before it.
+Shown Editor::shown_now() const {
+  const auto& step = session_.inspection.step;
+  const model::Cursor& cursor = session_.timeline.cursor;
+  const bool inside = cursor.stage && step && step->before_state && !session_.is_running() &&
+                      step->at.branch == cursor.branch && step->at.iteration == cursor.iteration;
+  return {session_.document, inside ? step->before_state : session_.current, session_.original};
+}
+
+// Runs beside the present one: while nothing else is compared.
+bool Editor::shows_others() const {
+  return !session_.other_states.empty() && interface_.state().comparison.mode == ui::CompareMode::off;
+}
+
+// What one picture of the viewport has: its part where several stand side by side.
 render::PictureSize Editor::pane() const {
+  if (shows_others()) {
+    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size());
+    return {std::max(1, viewport_.width / grid.columns), std::max(1, viewport_.height / grid.rows)};
+  }
   if (interface_.state().comparison.mode != ui::CompareMode::side_by_side) return viewport_;
   return {std::max(1, viewport_.width / 2), viewport_.height};
 }
@@ -132,12 +156,31 @@ render::PictureSize Editor::pane() const {
 void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {
   const bool lines_only =
       &picture == &before_ && interface_.state().comparison.mode == ui::CompareMode::ghost;
-  PictureKey key{shown.state->geometry.get(), shown.state->energy.get(), shown.against.get(), view,
-                 lines_only};
+  PictureKey key{shown.state->geometry.get(),
+                 shown.state->energy.get(),
+                 shown.against.get(),
+                 view,
+                 lines_only,
+                 {},
+                 {},
+                 {},
+                 {},
+                 false,
+                 {}};
+  if (&picture == &current_) {
+    const auto& step = session_.inspection.step;
+    key.step = step && !session_.is_running() ? step->record.get() : nullptr;
+    key.stage = session_.timeline.cursor.stage;
+    key.vertex = session_.selected_vertex;
+    key.limit = session_.selected_limit;
+    key.reasons = session_.view.reasons;
+    key.pinned = session_.smoothing.pinned;
+  }
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
   // One legend serves both.
   if (&picture == &before_ && (lines_only || view.size != viewport_)) scene.legend.reset();
+  if (&picture == &current_) add_step(session_, shown.state->positions(), scene);
   if (lines_only) {
     scene.transparent = true;
     scene.notes.clear();
@@ -159,6 +202,7 @@ void Editor::draw_pictures() {
     say(model::MessageKind::error, problem);
   if (!session_.current) {
     current_.drawn = before_.drawn = false;
+    others_.clear();
     return;
   }
   partner_.follow(session_, comparison);
@@ -168,8 +212,10 @@ void Editor::draw_pictures() {
       before.document->mesh().triangles.size() == session_.document->mesh().triangles.size() &&
       before.state->positions().size() == session_.current->positions().size();
   // Arrows and a change from what has other triangles would mean nothing.
-  draw(current_, {session_.document, session_.current, comparable ? before.state : session_.original},
-       present_view());
+  Shown now = shown_now();
+  if (comparable) now.against = before.state;
+  draw(current_, now, present_view());
+  draw_others();
   if (!shows_before() || !before.state) {
     before_.drawn = false;
     return;
@@ -181,6 +227,50 @@ void Editor::draw_pictures() {
   draw(before_, before, view);
 }
 
+void Editor::draw_others() {
+  const std::size_t count = shows_others() ? session_.other_states.size() : 0;
+  others_.resize(std::min(others_.size(), count));
+  while (others_.size() < count) others_.push_back(std::make_unique<KeptPicture>(loader_));
+  view::View view = present_view();
+  view.legend = false;
+  view.arrows = false;
+  for (std::size_t k = 0; k < count; ++k)
+    draw(*others_[k], {session_.document, session_.other_states[k], session_.original}, view);
+}
+
+// Where a point of the viewport is in the picture that it is over.
+std::array<float, 2> Editor::in_pane(float x, float y) const {
+  const auto width = static_cast<float>(pane().width);
+  const auto height = static_cast<float>(pane().height);
+  return {x - width * std::floor(x / width), y - height * std::floor(y / height)};
+}
+
+void Editor::pick(float x, float y) {
+  if (!session_.current || !current_.drawn) return;
+  const auto [at_x, at_y] = in_pane(x, y);
+  const Shown shown = shown_now();
+  // As it is drawn, but with all triangles: their numbers are asked for.
+  view::View view = present_view();
+  view.only_worse_than.reset();
+  const auto found = current_.renderer.pick(current_.scene.make(shown, view), camera_, pane(),
+                                            static_cast<int>(at_x), static_cast<int>(at_y));
+  current_.drawn = false;
+  if (!found) {
+    model::execute(session_, model::ClearSelection{});
+    return;
+  }
+  const Triangle& t = session_.document->mesh().triangles[found->triangle];
+  const auto positions = shown.state->positions();
+  unsigned nearest = 0;
+  while (t[nearest] != found->vertex) ++nearest;
+  if (means_vertex(found->point, {positions[t[0]], positions[t[1]], positions[t[2]]}, nearest))
+    model::execute(session_, model::SelectVertex{found->vertex});
+  else
+    model::execute(session_, model::SelectTriangle{found->triangle});
+  base_.selected.reset();
+  interface_.state().tab = ui::SideTab::inspect;
+}
+
 void Editor::say(model::MessageKind kind, const std::string& text) {
   model::execute(session_, model::Say{{kind, text}});
 }
@@ -190,6 +280,8 @@ void Editor::carry_out(const ui::Output& output) {
     model::execute(session_, command);
     // A triangle that came with a pasted view stays marked until another is.
     if (std::holds_alternative<model::SelectNextWorst>(command) ||
+        std::holds_alternative<model::SelectVertex>(command) ||
+        std::holds_alternative<model::SelectTriangle>(command) ||
         std::holds_alternative<model::ClearSelection>(command))
       base_.selected.reset();
   }
@@ -206,16 +298,17 @@ void Editor::carry_out_request(const ui::Request& request) {
     camera_ = render::pan(camera_, pan->dx, pan->dy, pane());
   } else if (const auto* zoom = std::get_if<ui::ZoomView>(&request)) {
     flight_.reset();
-    // Over the right one of two pictures the pointer is as far in as over the left one.
-    const auto width = static_cast<float>(pane().width);
-    const bool right =
-        interface_.state().comparison.mode == ui::CompareMode::side_by_side && zoom->x >= width;
-    camera_ = render::zoom_to(camera_, zoom->factor, right ? zoom->x - width : zoom->x, zoom->y, pane());
+    const auto [x, y] = in_pane(zoom->x, zoom->y);
+    camera_ = render::zoom_to(camera_, zoom->factor, x, y, pane());
   } else if (std::holds_alternative<ui::FrameView>(request)) {
     if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), pane(), fit_options()));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));
+    else if (session_.current && session_.selected_vertex)
+      fly_to(look_at_vertex(camera_, session_, *session_.selected_vertex));
+  } else if (const auto* at = std::get_if<ui::PickAt>(&request)) {
+    pick(at->x, at->y);
   } else if (const auto* picture = std::get_if<ui::SavePicture>(&request)) {
     save_picture(picture->path);
   } else if (std::holds_alternative<ui::CopyView>(request)) {
@@ -237,7 +330,7 @@ void Editor::save_picture(const std::filesystem::path& path) {
   try {
     const view::View view = present_view();
     current_.drawn = false;
-    draw(current_, {session_.document, session_.current, session_.original}, view);
+    draw(current_, shown_now(), view);
     render::Image image = current_.renderer.read_back();
     if (view.transparent) unmultiply(image);
     view::write_picture(path, {image, view});

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "editor/painter.h"
 #include "editor/partner.h"
@@ -55,6 +57,13 @@ class Editor {
     const model::MeshState* against = nullptr;
     view::View view;
     bool lines_only = false;
+    // What is laid over it.
+    const StepRecord* step = nullptr;
+    std::optional<model::Stage> stage;
+    std::optional<Index> vertex;
+    std::optional<unsigned> limit;
+    bool reasons = false;
+    std::vector<Index> pinned;
     bool operator==(const PictureKey&) const = default;
   };
   /// A picture that is kept until something about it changes.
@@ -76,7 +85,12 @@ class Editor {
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
   [[nodiscard]] render::PictureSize pane() const;
+  [[nodiscard]] Shown shown_now() const;
+  [[nodiscard]] bool shows_others() const;
   void draw_pictures();
+  void draw_others();
+  void pick(float x, float y);
+  [[nodiscard]] std::array<float, 2> in_pane(float x, float y) const;
   void draw(KeptPicture& picture, const Shown& shown, const view::View& view);
   void carry_out(const ui::Output& output);
   void carry_out_request(const ui::Request& request);
@@ -90,6 +104,8 @@ class Editor {
   ui::Interface interface_;
   KeptPicture current_;
   KeptPicture before_;
+  render::GlLoader loader_;
+  std::vector<std::unique_ptr<KeptPicture>> others_;  // of the branches beside the present one
   Painter painter_;
   Partner partner_;
   Motion motion_;

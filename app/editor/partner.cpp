@@ -51,6 +51,9 @@ Shown Partner::shown(const model::Session& session, const ui::Comparison& compar
       return {session.document, remembered_, {}};
     case ui::CompareWith::file:
       return {file_.document, file_.state, {}};
+    case ui::CompareWith::beside:
+      if (!session.other_states.empty()) return {session.document, session.other_states.front(), {}};
+      break;
   }
   return {session.document, session.original, {}};
 }

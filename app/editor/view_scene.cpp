@@ -44,6 +44,37 @@ const render::Scene& ViewScene::make(const Shown& shown, const view::View& view)
   return depiction_.scene;
 }
 
+namespace {
+
+render::Camera look_along(render::Camera camera, const model::Session& session, const Vec3& normal) {
+  if (session.document->plane_normal || normal.norm() == 0) return camera;
+  const Vec3 n = normal.normalized();
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const bool y_up = camera.up == render::UpAxis::y;
+  camera.azimuth_deg = kDegrees * (y_up ? std::atan2(n.x(), n.z()) : std::atan2(n.x(), -n.y()));
+  camera.elevation_deg =
+      std::clamp(kDegrees * std::asin(std::clamp(y_up ? n.y() : n.z(), -1.0, 1.0)), -80.0, 80.0);
+  return camera;
+}
+
+}  // namespace
+
+render::Camera look_at_vertex(const render::Camera& camera, const model::Session& session, Index vertex) {
+  const auto x = session.current->positions();
+  const auto& triangles = session.document->mesh().triangles;
+  render::Camera result = camera;
+  result.target = x[vertex];
+  double longest = 0;
+  Vec3 normal = Vec3::Zero();
+  for (const Corner c : session.document->topology.corners_of(vertex)) {
+    const Triangle& t = triangles[c / 3];
+    normal += area_vector(x[t[0]], x[t[1]], x[t[2]]);
+    for (const Index v : t) longest = std::max(longest, (x[v] - x[vertex]).norm());
+  }
+  if (longest > 0) result.extent = 8 * longest;
+  return look_along(result, session, normal);
+}
+
 render::Camera look_at_triangle(const render::Camera& camera, const model::Session& session, Index triangle) {
   const auto x = session.current->positions();
   const Triangle& t = session.document->mesh().triangles[triangle];
@@ -54,15 +85,7 @@ render::Camera look_at_triangle(const render::Camera& camera, const model::Sessi
   result.target = (a + b + c) / 3;
   const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
   if (longest > 0) result.extent = 9 * longest;
-  const Vec3 normal = area_vector(a, b, c);
-  if (session.document->plane_normal || normal.norm() == 0) return result;
-  const Vec3 n = normal.normalized();
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  const bool y_up = camera.up == render::UpAxis::y;
-  result.azimuth_deg = kDegrees * (y_up ? std::atan2(n.x(), n.z()) : std::atan2(n.x(), -n.y()));
-  result.elevation_deg =
-      std::clamp(kDegrees * std::asin(std::clamp(y_up ? n.y() : n.z(), -1.0, 1.0)), -80.0, 80.0);
-  return result;
+  return look_along(result, session, area_vector(a, b, c));
 }
 
 }  // namespace isorelax::editor

@@ -35,6 +35,8 @@ class ViewScene {
   view::Depiction depiction_;
 };
 
+/// The camera that looks at a vertex from along its normal, close enough to see its neighbours.
+render::Camera look_at_vertex(const render::Camera& camera, const model::Session& session, Index vertex);
 /// The camera that looks at a triangle from along its normal, close enough to see its neighbours.
 render::Camera look_at_triangle(const render::Camera& camera, const model::Session& session, Index triangle);
 

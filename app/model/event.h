@@ -96,6 +96,7 @@ struct Inspected {
   std::uint64_t number = 0;  ///< of the request
   std::shared_ptr<const StepRecord> record;
   std::shared_ptr<const std::vector<Vec3>> before;
+  MeshStatePtr before_state;
   std::string mismatch;
   std::optional<VertexExplanation> vertex;
   std::optional<TriangleExplanation> triangle;

@@ -226,8 +226,9 @@ void Executor::ask_about_step() {
   if (!s_.current || s_.is_running() || s_.seeking_ || !wanted) return;
   s_.inspect_number_ = ++s_.request_count_;
   const Cursor& cursor = s_.timeline.cursor;
-  InspectRequest request{s_.inspect_number_, s_.document,          s_.smoothing,  {},
-                         s_.selected_vertex, s_.selected_triangle, s_.step_budget};
+  InspectRequest request{
+      s_.inspect_number_,       s_.document,   s_.smoothing, {}, s_.selected_vertex, s_.selected_triangle,
+      cursor.stage.has_value(), s_.step_budget};
   const unsigned iteration = std::max(1U, cursor.iteration);
   if (!s_.timeline.empty() && iteration <= s_.timeline.last()) {
     // The holder of an iteration at which a branch begins is the branch; its step is the parent's.
@@ -246,7 +247,7 @@ void Executor::operator()(Inspected& event) {
   if (event.number != s_.inspect_number_ || s_.seeking_) return;
   Inspection& inspection = s_.inspection;
   inspection.step = StepView{s_.timeline.cursor, std::move(event.record), std::move(event.before),
-                             std::move(event.mismatch)};
+                             std::move(event.before_state), std::move(event.mismatch)};
   inspection.vertex = std::move(event.vertex);
   inspection.triangle = std::move(event.triangle);
   follow_selection();

@@ -90,6 +90,7 @@ struct StepView {
   Cursor at;  ///< the step that led there; of iteration 0 the one that leads away from it
   std::shared_ptr<const StepRecord> record;
   std::shared_ptr<const std::vector<Vec3>> before;
+  MeshStatePtr before_state;  ///< the same, measured; null where nobody looks inside the step
   std::string mismatch;  ///< why it is not to be trusted: recomputing it led elsewhere. Empty: it did not.
 };
 

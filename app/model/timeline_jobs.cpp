@@ -230,6 +230,11 @@ Engine::Job inspect_job(InspectRequest request) {
                                         *found.record, *request.vertex);
     if (request.triangle && !found.record->shape.empty())
       inspected.triangle = explain_triangle(*problem, found.before, *found.record, *request.triangle);
+    if (request.inside) {
+      const unsigned before = std::max(1U, request.place.iteration) - 1;
+      const SeekRequest seek{0, request.document, request.settings, {}, before, {}};
+      inspected.before_state = state_at(context, seek, {request.place.recording, before, {}});
+    }
     inspected.record = std::move(found.record);
     inspected.before = std::make_shared<const std::vector<Vec3>>(std::move(found.before));
     inspected.memory = {context.bench().steps().bytes(), context.bench().steps().count()};
@@ -247,7 +252,7 @@ Engine::Job scan_job(ScanRequest request) {
         context.progress("Looking at iteration " + std::to_string(k), -1);
         const Place place{request.recording, k - request.start, {}};
         const FoundStep step =
-            find_step(context, *problem, {0, request.document, request.settings, place, {}, {}});
+            find_step(context, *problem, {0, request.document, request.settings, place, {}, {}, false});
         const std::vector<Vec3> after = request.recording->positions_at(place.iteration);
         const Moment now{.iteration = k,
                          .numbers = trace.iterations[place.iteration - 1],

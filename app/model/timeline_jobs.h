@@ -29,6 +29,7 @@ struct InspectRequest {
   SmoothingSettings settings;  ///< of the recording
   Place place;  ///< after the step; its iteration is 1 or more, or the step is still to be made
   std::optional<Index> vertex, triangle;
+  bool inside = false;  ///< the mesh before the step is to be shown
   std::size_t step_budget = StepStore::kDefaultBudget;
 };
 /// Finds the full record of a step, by doing it again where it is not kept: Inspected or Failed.

@@ -24,6 +24,9 @@ void perform_file_action(const Ui& ui, Action action) {
     case Action::save_as:
       if (ui.session.document) ask_for_file(ui, FilePurpose::save_mesh);
       break;
+    case Action::save_trace:
+      if (!ui.session.timeline.empty()) ask_for_file(ui, FilePurpose::save_trace);
+      break;
     case Action::save_picture:
       ask_for_file(ui, FilePurpose::save_picture);
       break;
@@ -100,6 +103,65 @@ void perform_view_action(const Ui& ui, Action action) {
   }
 }
 
+void toggle_play(const Ui& ui, int direction) {
+  Playing& playing = ui.state.playing;
+  playing.due = 0;
+  playing.direction = playing.direction != 0 ? 0 : direction;
+  if (playing.direction == 0 || ui.session.timeline.empty()) return;
+  // At the end of the way it starts over.
+  const model::Timeline& timeline = ui.session.timeline;
+  if (direction > 0 && timeline.cursor.iteration >= timeline.last()) ui.command(model::Seek{0, {}});
+  if (direction < 0 && timeline.cursor.iteration == 0) ui.command(model::Seek{timeline.last(), {}});
+}
+
+void perform_inspection(const Ui& ui, Action action) {
+  const model::Session& s = ui.session;
+  switch (action) {
+    case Action::to_start:
+      ui.command(model::Seek{0, {}});
+      break;
+    case Action::to_end:
+      ui.command(model::Seek{s.timeline.last(), {}});
+      break;
+    case Action::play_forward:
+      toggle_play(ui, 1);
+      break;
+    case Action::play_backward:
+      toggle_play(ui, -1);
+      break;
+    case Action::next_stage:
+      ui.command(model::StepStage{1});
+      break;
+    case Action::previous_stage:
+      ui.command(model::StepStage{-1});
+      break;
+    case Action::reasons: {
+      model::ViewSettings view = s.view;
+      view.reasons = !view.reasons;
+      ui.command(model::SetView{view});
+      if (!view.reasons && s.selected_limit) ui.command(model::SelectLimited{});
+      break;
+    }
+    case Action::pin:
+      if (s.selected_vertex) ui.command(model::TogglePin{*s.selected_vertex});
+      break;
+    case Action::tab_quality:
+      ui.state.tab = SideTab::quality;
+      break;
+    case Action::tab_inspect:
+      ui.state.tab = SideTab::inspect;
+      break;
+    case Action::tab_debug:
+      ui.state.tab = SideTab::debug;
+      break;
+    case Action::tab_runs:
+      ui.state.tab = SideTab::runs;
+      break;
+    default:
+      break;
+  }
+}
+
 }  // namespace
 
 void perform(const Ui& ui, Action action) {
@@ -125,6 +187,7 @@ void perform(const Ui& ui, Action action) {
       break;
     default:
       perform_file_action(ui, action);
+      perform_inspection(ui, action);
       perform_view_action(ui, action);
   }
 }

@@ -20,6 +20,8 @@ void draw_part(ImTextureID texture, const Rect& rect, float a, float b) {
 
 std::string name_of_before(const Comparison& comparison) {
   switch (comparison.with) {
+    case CompareWith::beside:
+      return "The run beside";
     case CompareWith::original:
       break;
     case CompareWith::remembered:
@@ -66,7 +68,7 @@ void choose_partner(const Ui& ui) {
   Comparison& comparison = ui.state.comparison;
   const std::string remembered = comparison.remembers ? comparison.remembered : "Remember this state";
   const std::string file = comparison.file.empty() ? "Another file..." : comparison.file;
-  const std::array<std::string_view, 3> labels{"Original", remembered, file};
+  const std::array<std::string_view, 4> labels{"Original", remembered, file, "The run beside"};
   ImGui::SetNextItemWidth(ui.px(180));
   const int choice = combo(ui, "compare-with", labels, static_cast<int>(comparison.with));
   tooltip(ui, "What the mesh is compared with.");
@@ -85,6 +87,7 @@ void choose_partner(const Ui& ui) {
     if (!comparison.remembers) ui.request(RememberState{});
     comparison.with = CompareWith::remembered;
   }
+  if (choice == 3) comparison.with = CompareWith::beside;
   if (choice == 2) {
     if (comparison.file.empty())
       ask_for_file(ui, FilePurpose::comparison);
@@ -113,8 +116,46 @@ bool drag_divider(const Ui& ui, const Rect& rect) {
   return comparison.dragged;
 }
 
+Grid grid_of(std::size_t pictures) {
+  if (pictures == 4) return {2, 2};
+  return {static_cast<int>(std::max<std::size_t>(1, pictures)), 1};
+}
+
+namespace {
+
+// The present run at the upper left, the others behind it, each with its name.
+void draw_grid(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+  const model::Session& s = ui.session;
+  const Grid grid = grid_of(1 + image.others.size());
+  const float width = std::floor(rect.width() / static_cast<float>(grid.columns));
+  const float height = std::floor(rect.height() / static_cast<float>(grid.rows));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (std::size_t k = 0; k <= image.others.size(); ++k) {
+    const auto column = static_cast<float>(static_cast<int>(k) % grid.columns);
+    const auto row = static_cast<float>(static_cast<int>(k) / grid.columns);
+    const ImVec2 low{rect.low.x + column * width, rect.low.y + row * height};
+    const Rect cell{low, {low.x + width, low.y + height}};
+    draw_part(k == 0 ? image.texture : image.others[k - 1], cell, 0, 1);
+    draw.AddRect(cell.low, cell.high, color::kLine);
+    const unsigned branch = k == 0                            ? s.timeline.cursor.branch
+                            : k - 1 < s.shown_branches.size() ? s.shown_branches[k - 1]
+                                                              : 0;
+    if (branch >= s.timeline.branches.size()) continue;
+    const unsigned at = std::min(s.timeline.cursor.iteration, s.timeline.branches[branch].tip());
+    draw_name(ui, s.timeline.branches[branch].name + ", iteration " + std::to_string(at), cell.low.x,
+              cell.high.y, true);
+    mark_area(ui, "view/" + std::to_string(k), cell);
+  }
+}
+
+}  // namespace
+
 void draw_pictures(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   const Comparison& comparison = ui.state.comparison;
+  if (!image.others.empty()) {
+    draw_grid(ui, rect, image);
+    return;
+  }
   const bool pair = image.before != nullptr;
   switch (pair ? comparison.mode : CompareMode::off) {
     case CompareMode::off:

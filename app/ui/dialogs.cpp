@@ -36,6 +36,7 @@ void draw_shortcut_group(const Ui& ui, std::string_view group) {
 
 void draw_pointer_help(const Ui& ui) {
   constexpr std::pair<const char*, const char*> kLines[]{
+      {"Click", "Inspect a vertex or a triangle"},
       {"Drag", "Orbit; a planar mesh pans"},
       {"Middle drag, Shift", "Pan"},
       {"Wheel", "Zoom to the pointer"},
@@ -65,12 +66,14 @@ void go_on(const Ui& ui) {
 void draw_help(const Ui& ui) {
   if (ui.state.help_wanted) ImGui::OpenPopup("help");
   ui.state.help_wanted = false;
-  if (!begin_dialog(ui, "help", ui.px(760))) return;
+  if (!begin_dialog(ui, "help", ui.px(1060))) return;
   text_in(ui.fonts.title, color::kText, "Keys");
   ImGui::Dummy({0, ui.px(4)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(4)});
-  ImGui::Columns(2, "keys", false);
+  ImGui::Columns(3, "keys", false);
   draw_shortcut_group(ui, "Smoothing");
+  draw_shortcut_group(ui, "Inspect");
+  ImGui::NextColumn();
   draw_shortcut_group(ui, "View");
   ImGui::NextColumn();
   draw_shortcut_group(ui, "File and edit");

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr const char* kTitle = "file-browser";
 
 bool saves(FilePurpose purpose) {
-  return purpose == FilePurpose::save_mesh || purpose == FilePurpose::save_picture;
+  return purpose == FilePurpose::save_mesh || purpose == FilePurpose::save_picture ||
+         purpose == FilePurpose::save_trace;
 }
 
 std::string lower(std::string text) {
@@ -30,6 +31,8 @@ std::string lower(std::string text) {
 bool fits(FilePurpose purpose, const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   if (purpose == FilePurpose::save_picture) return extension == ".png";
+  if (purpose == FilePurpose::save_trace || purpose == FilePurpose::add_trace) return extension == ".trace";
+  if (purpose == FilePurpose::open_mesh && extension == ".trace") return true;
   return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
 }
 
@@ -76,13 +79,17 @@ std::string size_text(std::uintmax_t bytes) {
 std::string_view title(FilePurpose purpose) {
   switch (purpose) {
     case FilePurpose::open_mesh:
-      return "Open a mesh";
+      return "Open a mesh or a recorded run";
     case FilePurpose::save_mesh:
       return "Save the mesh";
     case FilePurpose::save_picture:
       return "Save a picture";
     case FilePurpose::comparison:
       return "Choose a mesh to compare with";
+    case FilePurpose::save_trace:
+      return "Save the run as a trace";
+    case FilePurpose::add_trace:
+      return "Add a recorded run of this mesh";
     case FilePurpose::reference:
       break;
   }
@@ -103,6 +110,12 @@ void deliver(const Ui& ui, const fs::path& path) {
       break;
     case FilePurpose::save_picture:
       ui.request(SavePicture{path});
+      break;
+    case FilePurpose::save_trace:
+      ui.command(model::SaveTrace{path});
+      break;
+    case FilePurpose::add_trace:
+      ui.command(model::AddTrace{path});
       break;
     case FilePurpose::comparison:
       ui.request(CompareWithFile{path});
@@ -140,8 +153,9 @@ void accept(const Ui& ui) {
     return;
   }
   if (!fits(browser.purpose, path))
-    browser.error = browser.purpose == FilePurpose::save_picture
-                        ? "The name of a picture ends in .png"
+    browser.error = browser.purpose == FilePurpose::save_picture ? "The name of a picture ends in .png"
+                    : browser.purpose == FilePurpose::save_trace
+                        ? "The name of a trace ends in .trace"
                         : "The name ends in .off, .obj, .ply or .stl";
   else if (!fs::is_directory(path.parent_path(), error))
     browser.error = path.parent_path().string() + ": there is no such folder";
@@ -320,6 +334,7 @@ void ask_for_file(const Ui& ui, FilePurpose purpose) {
     const fs::path& path = ui.session.save_path ? *ui.session.save_path : ui.session.document->path;
     const std::string stem = path.stem().string();
     if (purpose == FilePurpose::save_picture) browser.name = stem + ".png";
+    if (purpose == FilePurpose::save_trace) browser.name = stem + ".trace";
     if (purpose == FilePurpose::save_mesh)
       browser.name =
           ui.session.save_path ? path.filename().string() : stem + "-smooth" + path.extension().string();

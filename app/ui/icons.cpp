@@ -79,6 +79,21 @@ void draw_run_icon(const Pen& pen, Icon icon) {
       pen.draw.AddTriangleFilled(pen.at(0.8F, -0.8F), pen.at(0.8F, 0.8F), pen.at(-0.4F, 0), pen.color);
       pen.bar(-0.8F, -0.8F, -0.45F, 0.8F);
       break;
+    case Icon::step_back:
+      pen.draw.AddTriangleFilled(pen.at(0.8F, -0.8F), pen.at(0.8F, 0.8F), pen.at(-0.4F, 0), pen.color);
+      pen.bar(-0.8F, -0.8F, -0.45F, 0.8F);
+      break;
+    case Icon::run_back:
+      pen.draw.AddTriangleFilled(pen.at(0.6F, -0.85F), pen.at(0.6F, 0.85F), pen.at(-0.9F, 0), pen.color);
+      break;
+    case Icon::to_end:
+      pen.draw.AddTriangleFilled(pen.at(-0.95F, -0.75F), pen.at(0, 0), pen.at(-0.95F, 0.75F), pen.color);
+      pen.draw.AddTriangleFilled(pen.at(-0.05F, -0.75F), pen.at(0.9F, 0), pen.at(-0.05F, 0.75F), pen.color);
+      break;
+    case Icon::to_start:
+      pen.draw.AddTriangleFilled(pen.at(0.95F, -0.75F), pen.at(0.95F, 0.75F), pen.at(0, 0), pen.color);
+      pen.draw.AddTriangleFilled(pen.at(0.05F, -0.75F), pen.at(0.05F, 0.75F), pen.at(-0.9F, 0), pen.color);
+      break;
     case Icon::undo:
       turn_arrow(pen, 1);
       break;

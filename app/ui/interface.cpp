@@ -88,7 +88,8 @@ Output Interface::frame(const model::Session& session, const FrameOptions& optio
   ImGui::Render();
   // Dear ImGui settles hover, focus and sizes within two frames of an input.
   settle_frames_ = had_input ? 2 : std::max(0, settle_frames_ - 1);
-  if (state_.comparison.mode == CompareMode::blink) settle_frames_ = std::max(1, settle_frames_);
+  if (state_.comparison.mode == CompareMode::blink || state_.playing.direction != 0)
+    settle_frames_ = std::max(1, settle_frames_);
   // A tooltip waits for its time to come, which only frames let pass.
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (context.HoveredId != 0 && context.HoveredIdTimer < 2 * kTooltipDelay)
@@ -101,7 +102,12 @@ void Interface::handle_keys(const Ui& ui, std::span<const KeyChanged> pressed) {
     if (press.key == Key::escape) {
       state_.focused.clear();
       ImGui::SetWindowFocus(nullptr);
-      if (ui.session.selected_triangle) ui.command(model::ClearSelection{});
+      state_.playing.direction = 0;
+      const model::Session& s = ui.session;
+      if (s.selected_triangle || s.selected_vertex || s.selected_limit)
+        ui.command(model::ClearSelection{});
+      else if (s.timeline.cursor.stage)
+        ui.command(model::SetStage{});
     }
     if (const Shortcut* shortcut = find_shortcut(press)) perform(ui, shortcut->action);
   }
@@ -125,12 +131,15 @@ void Interface::draw(const Ui& ui, const FrameOptions& options) {
   state_.rects.clear();
   state_.stops.clear();
   state_.focused.clear();
+  state_.has_mesh = ui.session.current != nullptr;
   const Layout layout = make_layout(state_, options.display, scale_);
+  play(ui, options.seconds);
   draw_viewport(ui, layout.viewport, options.viewport);
   if (!state_.panels_hidden) {
     draw_top_bar(ui, layout.top);
     draw_settings_panel(ui, layout.left);
-    draw_quality_panel(ui, layout.right);
+    draw_side_panel(ui, layout.right);
+    if (layout.timeline.height() > 0) draw_timeline(ui, layout.timeline);
     draw_status_bar(ui, layout.status);
     draw_splitters(ui, layout);
   }

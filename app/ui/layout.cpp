@@ -55,7 +55,12 @@ Layout make_layout(const UiState& state, ImVec2 display, float scale) {
   const float right = std::floor(display.x - state.right_width * scale * shrink);
   layout.top = {{0, 0}, {display.x, top}};
   layout.left = {{0, top}, {left, bottom}};
-  layout.viewport = {{left, top}, {right, bottom}};
+  // In a low window the timeline gives way, too.
+  const float timeline = state.has_mesh && bottom - top > 3 * size::kTimeline * scale
+                             ? bottom - size::kTimeline * scale
+                             : bottom;
+  layout.viewport = {{left, top}, {right, timeline}};
+  layout.timeline = {{left, timeline}, {right, bottom}};
   layout.right = {{right, top}, {display.x, bottom}};
   layout.status = {{0, bottom}, display};
   return layout;

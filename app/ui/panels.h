@@ -6,7 +6,7 @@ namespace isorelax::ui {
 
 /// Where everything is in a frame, in pixels.
 struct Layout {
-  Rect top, left, viewport, right, status;
+  Rect top, left, viewport, timeline, right, status;
 };
 /// The layout for a display of this size; hidden panels are empty.
 [[nodiscard]] Layout make_layout(const UiState& state, ImVec2 display, float scale);
@@ -14,8 +14,17 @@ struct Layout {
 /// Textures with pictures of the mesh, first row at the bottom; null: none yet.
 struct ViewportImage {
   ImTextureID texture = nullptr;
-  ImTextureID before = nullptr;  ///< of what it is compared with
+  ImTextureID before = nullptr;       ///< of what it is compared with
+  std::vector<ImTextureID> others{};  ///< of the runs beside the present one
 };
+
+/// How several pictures share the viewport.
+struct Grid {
+  int columns = 1;
+  int rows = 1;
+};
+/// Up to three side by side, four in two rows.
+[[nodiscard]] Grid grid_of(std::size_t pictures);
 
 /// Moves the divider of a split with the pointer; whether the pointer has hold of it. Belongs behind the
 /// viewport's item.
@@ -27,7 +36,17 @@ void draw_compare_bar(const Ui& ui, const Rect& rect);
 
 void draw_top_bar(const Ui& ui, const Rect& rect);
 void draw_settings_panel(const Ui& ui, const Rect& rect);
-void draw_quality_panel(const Ui& ui, const Rect& rect);
+/// The panel at the right with its tabs.
+void draw_side_panel(const Ui& ui, const Rect& rect);
+/// What the tabs hold; inside a panel that has begun.
+void draw_quality(const Ui& ui);
+void draw_inspector(const Ui& ui);
+void draw_debug(const Ui& ui);
+void draw_runs(const Ui& ui);
+/// Transport, stages and track of the timeline.
+void draw_timeline(const Ui& ui, const Rect& rect);
+/// Goes on with a timeline that plays.
+void play(const Ui& ui, float seconds);
 void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image);
 void draw_status_bar(const Ui& ui, const Rect& rect);
 void draw_splitters(const Ui& ui, const Layout& layout);

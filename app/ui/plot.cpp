@@ -228,6 +228,11 @@ void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
   for (const Line& line : plot.lines) draw_line(draw, frame, line, plot.scale, ui.px(1.75F));
+  // At the end it says nothing.
+  if (plot.marker && *plot.marker<last&& * plot.marker> 0) {
+    const float x = std::floor(frame.x(*plot.marker)) + 0.5F;
+    draw.AddLine({x, frame.area.low.y}, {x, frame.area.high.y}, faded(color::kText, 0.45F), ui.px(1));
+  }
   hover_lines(ui, frame, plot);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,7 +39,8 @@ struct LinePlot {
   std::vector<Line> lines{};
   PlotScale scale = PlotScale::linear;
   double low = 0, high = 1;
-  std::vector<double> ticks{};  ///< empty: round numbers
+  std::vector<double> ticks{};     ///< empty: round numbers
+  std::optional<double> marker{};  ///< an iteration that is marked
 };
 /// Lines over iterations, with a read-out under the pointer.
 void draw_lines(const Ui& ui, const LinePlot& plot, float height);

@@ -131,6 +131,7 @@ Line make_line(const std::vector<model::IterationRow>& rows, double model::Itera
 void draw_history(const Ui& ui, float height) {
   const auto& rows = ui.session.history;
   LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g"};
+  energy.marker = ui.session.current->iteration;
   energy.lines.push_back(make_line(rows, &model::IterationRow::energy, "energy", color::kAccent));
   if (!rows.empty()) {
     const auto [low, high] = std::ranges::minmax(rows, {}, &model::IterationRow::energy);
@@ -148,6 +149,7 @@ void draw_history(const Ui& ui, float height) {
                   .low = 0,
                   .high = 180,
                   .ticks = {0, 60, 120, 180}};
+  angles.marker = ui.session.current->iteration;
   angles.lines.push_back(make_line(rows, &model::IterationRow::min_angle_deg, "smallest", color::kAccent));
   angles.lines.push_back(make_line(rows, &model::IterationRow::max_angle_deg, "largest", color::kSecond));
   draw_lines(ui, angles, height);
@@ -155,14 +157,7 @@ void draw_history(const Ui& ui, float height) {
 
 }  // namespace
 
-void draw_quality_panel(const Ui& ui, const Rect& rect) {
-  begin_panel("quality", rect);
-  heading(ui, "QUALITY");
-  if (!ui.session.current) {
-    text_in(ui.fonts.text, color::kTextFaint, "No mesh is open.");
-    ImGui::End();
-    return;
-  }
+void draw_quality(const Ui& ui) {
   draw_table(ui);
   ImGui::Separator();
   ImGui::Dummy({0, ui.px(1)});
@@ -171,13 +166,47 @@ void draw_quality_panel(const Ui& ui, const Rect& rect) {
   const float height = std::clamp(std::floor(left / 4), ui.px(84), ui.px(190));
   draw_histograms(ui, height);
   draw_history(ui, height);
+}
+
+void draw_side_panel(const Ui& ui, const Rect& rect) {
+  constexpr std::array<std::string_view, 4> kTabs{"Quality", "Inspect", "Debug", "Runs"};
+  begin_panel("side", rect);
+  const int choice =
+      segmented(ui, "tab", kTabs, static_cast<int>(ui.state.tab), ImGui::GetContentRegionAvail().x);
+  if (choice >= 0) ui.state.tab = static_cast<SideTab>(choice);
+  ImGui::Dummy({0, ui.px(2)});
+  if (!ui.session.current) {
+    text_in(ui.fonts.text, color::kTextFaint, "No mesh is open.");
+    ImGui::End();
+    return;
+  }
+  // Every tab keeps its own place when it is scrolled.
+  ImGui::BeginChild(kTabs.at(static_cast<std::size_t>(ui.state.tab)).data(), {0, 0});
+  switch (ui.state.tab) {
+    case SideTab::quality:
+      draw_quality(ui);
+      break;
+    case SideTab::inspect:
+      draw_inspector(ui);
+      break;
+    case SideTab::debug:
+      draw_debug(ui);
+      break;
+    case SideTab::runs:
+      draw_runs(ui);
+      break;
+  }
+  ImGui::EndChild();
   ImGui::End();
 }
 
 std::string describe_last_run(const model::Session& session) {
   if (!session.last_run) return {};
   const RunResult& run = *session.last_run;
-  std::string text = run.stopped == StopReason::cancelled
+  std::string text = !session.broken_by.empty()
+                         ? "Stopped at iteration " + std::to_string(session.current->iteration) + ", where " +
+                               session.broken_by
+                     : run.stopped == StopReason::cancelled
                          ? "Paused after " + std::to_string(run.iterations) + " iterations"
                          : "Stopped after " + std::to_string(run.iterations) +
                                (run.iterations == 1 ? " iteration: " : " iterations: ") +

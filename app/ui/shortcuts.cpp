@@ -8,18 +8,32 @@ namespace {
 
 constexpr Modifiers kPlain{};
 constexpr Modifiers kControl{.control = true};
+constexpr Modifiers kShift{.shift = true};
 constexpr Modifiers kControlShift{.control = true, .shift = true};
 
 constexpr std::string_view kSmoothing = "Smoothing";
+constexpr std::string_view kInspect = "Inspect";
 constexpr std::string_view kView = "View";
 constexpr std::string_view kFile = "File and edit";
 
 constexpr std::array kShortcuts{
     Shortcut{Key::space, kPlain, Action::run_pause, "Space", "Run or pause", kSmoothing},
-    Shortcut{Key::right, kPlain, Action::step, "Right", "One step", kSmoothing},
-    Shortcut{Key::left, kPlain, Action::step_back, "Left", "Back over the last step or run", kSmoothing},
-    Shortcut{Key::home, kPlain, Action::reset, "Home", "Reset to the mesh as opened", kSmoothing},
-    Shortcut{Key::n, kPlain, Action::next_worst, "N", "Fly to the next worst triangle", kSmoothing},
+    Shortcut{Key::right, kPlain, Action::step, "Right", "One iteration on", kSmoothing},
+    Shortcut{Key::left, kPlain, Action::step_back, "Left", "One iteration back", kSmoothing},
+    Shortcut{Key::right, kShift, Action::next_stage, "Shift+Right", "To the next stage of the step",
+             kSmoothing},
+    Shortcut{Key::left, kShift, Action::previous_stage, "Shift+Left", "To the stage before", kSmoothing},
+    Shortcut{Key::home, kPlain, Action::to_start, "Home", "To the mesh as opened", kSmoothing},
+    Shortcut{Key::end, kPlain, Action::to_end, "End", "To the last iteration", kSmoothing},
+    Shortcut{Key::p, kPlain, Action::play_forward, "P", "Play or halt the timeline", kSmoothing},
+    Shortcut{Key::p, kShift, Action::play_backward, "Shift+P", "Play it backwards", kSmoothing},
+    Shortcut{Key::n, kPlain, Action::next_worst, "N", "Fly to the next worst triangle", kInspect},
+    Shortcut{Key::r, kPlain, Action::reasons, "R", "Colour by what limited the vertices", kInspect},
+    Shortcut{Key::x, kPlain, Action::pin, "X", "Pin or unpin the selected vertex", kInspect},
+    Shortcut{Key::q, kPlain, Action::tab_quality, "Q", "Quality", kInspect},
+    Shortcut{Key::i, kPlain, Action::tab_inspect, "I", "Inspector", kInspect},
+    Shortcut{Key::b, kPlain, Action::tab_debug, "B", "Reasons and breakpoints", kInspect},
+    Shortcut{Key::t, kPlain, Action::tab_runs, "T", "Runs and traces", kInspect},
     Shortcut{Key::c, kControlShift, Action::copy_command_line, "Ctrl+Shift+C", "Copy as command line",
              kSmoothing},
     Shortcut{Key::digit1, kPlain, Action::color_min_angle, "1", "Colour by smallest angle", kView},
@@ -37,6 +51,7 @@ constexpr std::array kShortcuts{
     Shortcut{Key::o, kControl, Action::open, "Ctrl+O", "Open a mesh", kFile},
     Shortcut{Key::s, kControl, Action::save, "Ctrl+S", "Save the mesh", kFile},
     Shortcut{Key::s, kControlShift, Action::save_as, "Ctrl+Shift+S", "Save under another name", kFile},
+    Shortcut{Key::t, kControl, Action::save_trace, "Ctrl+T", "Save the run as a trace", kFile},
     Shortcut{Key::f12, kPlain, Action::save_picture, "F12", "Save a picture", kFile},
     Shortcut{Key::p, kControl, Action::save_picture, "Ctrl+P", "Save a picture", kFile},
     Shortcut{Key::z, kControl, Action::undo, "Ctrl+Z", "Undo", kFile},

@@ -35,6 +35,19 @@ enum class Action : std::uint8_t {
   copy_view,
   paste_view,
   compare,
+  to_start,
+  to_end,
+  play_forward,
+  play_backward,
+  next_stage,
+  previous_stage,
+  reasons,
+  tab_quality,
+  tab_inspect,
+  tab_debug,
+  tab_runs,
+  pin,
+  save_trace,
 };
 
 struct Shortcut {

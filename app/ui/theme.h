@@ -25,6 +25,22 @@ inline constexpr ImU32 kBetter = IM_COL32(122, 205, 150, 255);
 inline constexpr ImU32 kWorse = IM_COL32(240, 128, 122, 255);
 inline constexpr ImU32 kWarning = IM_COL32(233, 196, 106, 255);
 inline constexpr ImU32 kSecond = IM_COL32(112, 178, 214, 255);  ///< a second line in a plot
+/// What limited a vertex, by bit of Limit: pinned, corner, ridge, boundary, fold, energy, surface, converged.
+inline constexpr ImU32 kLimits[8] = {
+    IM_COL32(198, 120, 221, 255), IM_COL32(226, 68, 92, 255),   IM_COL32(240, 200, 80, 255),
+    IM_COL32(86, 156, 255, 255),  IM_COL32(255, 122, 61, 255),  IM_COL32(64, 201, 198, 255),
+    IM_COL32(150, 120, 90, 255),  IM_COL32(110, 190, 120, 255),
+};
+/// Branches of the timeline, in turn.
+inline constexpr ImU32 kBranches[6] = {
+    IM_COL32(242, 140, 79, 255),  IM_COL32(112, 178, 214, 255), IM_COL32(122, 205, 150, 255),
+    IM_COL32(198, 150, 230, 255), IM_COL32(233, 196, 106, 255), IM_COL32(226, 110, 140, 255),
+};
+/// Arrows of the stages: gradient, tangent, proposed, control, moved.
+inline constexpr ImU32 kStages[5] = {
+    IM_COL32(235, 235, 240, 255), IM_COL32(112, 178, 214, 255), IM_COL32(233, 196, 106, 255),
+    IM_COL32(240, 110, 90, 255),  IM_COL32(255, 122, 61, 255),
+};
 }  // namespace color
 
 /// Sizes in points; multiply by the scale for pixels. Distances are multiples of the grid.
@@ -36,6 +52,7 @@ inline constexpr float kTitleText = 17;
 inline constexpr float kTopBar = 48;
 inline constexpr float kStatusBar = 30;
 inline constexpr float kControl = 30;
+inline constexpr float kTimeline = 116;
 }  // namespace size
 
 /// Bytes of OpenType fonts with Latin and Greek letters.
@@ -58,6 +75,12 @@ Fonts load_fonts(ImFontAtlas& atlas, const FontFiles& files, float scale);
 
 /// Sets the whole style of the current context for a scale.
 void apply_theme(float scale);
+
+/// The same colour, more transparent: `share` of its opacity.
+constexpr ImU32 faded(ImU32 color, float share) {
+  const auto alpha = static_cast<ImU32>(static_cast<float>(color >> IM_COL32_A_SHIFT) * share);
+  return (color & ~IM_COL32_A_MASK) | alpha << IM_COL32_A_SHIFT;
+}
 
 /// A theme colour for functions that want floats.
 inline ImVec4 to_vec4(ImU32 color) {

@@ -41,6 +41,10 @@ struct ZoomView {
 };
 struct FrameView {};
 struct FlyToSelection {};
+/// Selects what is under a pixel of the viewport: a vertex where one is near, else the triangle.
+struct PickAt {
+  float x = 0, y = 0;
+};
 struct SavePicture {
   std::filesystem::path path;
 };
@@ -57,8 +61,8 @@ struct CompareWithFile {
   std::filesystem::path path;
 };
 struct Quit {};
-using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, SavePicture, CopyView,
-                             PasteView, RememberState, CompareWithFile, Quit>;
+using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, PickAt, SavePicture,
+                             CopyView, PasteView, RememberState, CompareWithFile, Quit>;
 
 /// What one frame of the interface asks for, in order.
 struct Output {
@@ -67,12 +71,20 @@ struct Output {
 };
 
 /// What a file dialog chooses for.
-enum class FilePurpose : std::uint8_t { open_mesh, save_mesh, save_picture, reference, comparison };
+enum class FilePurpose : std::uint8_t {
+  open_mesh,
+  save_mesh,
+  save_picture,
+  reference,
+  comparison,
+  save_trace,
+  add_trace,
+};
 
 /// How the mesh is shown beside another state of it.
 enum class CompareMode : std::uint8_t { off, split, blink, side_by_side, ghost, change };
 /// What it is shown beside.
-enum class CompareWith : std::uint8_t { original, remembered, file };
+enum class CompareWith : std::uint8_t { original, remembered, file, beside };
 struct Comparison {
   CompareMode mode = CompareMode::off;
   CompareWith with = CompareWith::original;
@@ -110,12 +122,37 @@ struct FileBrowser {
 struct PendingQuit {};
 using PendingAction = std::variant<std::monostate, PendingQuit, std::filesystem::path>;
 
+/// What the panel at the right shows.
+enum class SideTab : std::uint8_t { quality, inspect, debug, runs };
+
+/// The timeline playing by itself.
+struct Playing {
+  int direction = 0;  ///< 1 forwards, -1 backwards, 0 not at all
+  int speed = 2;      ///< which of kPlaySpeeds
+  float due = 0;      ///< iterations that have become due
+};
+inline constexpr std::array kPlaySpeeds{1.0F, 4.0F, 12.0F, 30.0F, 120.0F};  ///< iterations per second
+
+/// What is being typed into the inspector and the list of breakpoints.
+struct Typing {
+  std::string id;
+  bool triangle = false;  ///< the id is that of a triangle
+  std::string predicate;
+  bool logs = false;  ///< the predicate tells instead of stopping
+  int compare_with = 0;
+};
+
 /// State of the widgets: nothing here is about the mesh.
 struct UiState {
   bool panels_hidden = false;
   float left_width = 300;   ///< points
   float right_width = 352;  ///< points
   bool help_wanted = false;
+  bool has_mesh = false;  ///< there is a mesh, and so a timeline
+  SideTab tab = SideTab::quality;
+  Playing playing;
+  Typing typing;
+  ImVec2 press_at{0, 0};  ///< where the pointer went down in the viewport
   FileBrowser browser;
   PendingAction pending;
   bool ask_unsaved = false;

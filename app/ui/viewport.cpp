@@ -24,6 +24,17 @@ void navigate(const Ui& ui, const Rect& rect) {
         ZoomView{std::pow(1.15F, io.MouseWheel), io.MousePos.x - rect.low.x, io.MousePos.y - rect.low.y});
 }
 
+// A press that goes up again where it went down is a click; anything else was a drag.
+void pick(const Ui& ui, const Rect& rect, bool divides) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemActivated()) ui.state.press_at = io.MouseClickedPos[0];
+  if (!ImGui::IsItemDeactivated() || divides || !ImGui::IsMouseReleased(ImGuiMouseButton_Left)) return;
+  const float dx = io.MousePos.x - ui.state.press_at.x;
+  const float dy = io.MousePos.y - ui.state.press_at.y;
+  if (dx * dx + dy * dy > ui.px(4) * ui.px(4)) return;
+  ui.request(PickAt{io.MousePos.x - rect.low.x, io.MousePos.y - rect.low.y});
+}
+
 void centered(ImFont* font, float middle, ImU32 color, const std::string& text) {
   ImGui::PushFont(font);
   ImGui::SetCursorPosX(middle - 0.5F * ImGui::CalcTextSize(text.c_str()).x);
@@ -113,7 +124,8 @@ std::string describe_selection(const model::Session& s) {
   if (!s.selected_triangle || !s.current) return {};
   const Index t = *s.selected_triangle;
   const model::Geometry& g = *s.current->geometry;
-  std::string text = "Triangle " + std::to_string(t) + ", worst no. " + std::to_string(s.worst_rank) + ":  " +
+  const std::string rank = s.worst_rank > 0 ? ", worst no. " + std::to_string(s.worst_rank) : "";
+  std::string text = "Triangle " + std::to_string(t) + rank + ":  " +
                      number_text("%.2f", g.min_angle_values[t]) + "\xC2\xB0 to " +
                      number_text("%.2f", g.max_angle_values[t]) + "\xC2\xB0,  area " +
                      number_text("%.3g", g.area_values[t]) + " \xC3\x97 mean";
@@ -122,6 +134,8 @@ std::string describe_selection(const model::Session& s) {
 }
 
 void draw_selection(const Ui& ui, const Rect& rect) {
+  // The inspector says it better.
+  if (ui.state.tab == SideTab::inspect && !ui.state.panels_hidden) return;
   const std::string text = describe_selection(ui.session);
   if (text.empty()) return;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -149,6 +163,7 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
     if (ImGui::IsItemActivated()) ui.state.focused.clear();
     const bool divides = drag_divider(ui, rect);
     if (!divides) navigate(ui, rect);
+    pick(ui, rect, divides);
     draw_pictures(ui, rect, image);
     draw_selection(ui, rect);
   } else if (ui.session.activity != model::Activity::loading) {

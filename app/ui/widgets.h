@@ -15,6 +15,10 @@ enum class Icon : std::uint8_t {
   pause,
   step,
   reset,
+  step_back,
+  run_back,
+  to_end,
+  to_start,
   open,
   save,
   picture,
@@ -68,6 +72,28 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view keys = {});
 /// A combo box over labels; the new choice, or -1.
 int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen);
 void text_in(ImFont* font, ImU32 color, std::string_view text);
+
+/// A number or a few words beside their name, over the whole width. A click copies `exact`.
+struct ValueRow {
+  std::string_view name{};  ///< identity, and what a test finds
+  std::string_view label{};
+  std::string shown{};
+  std::string exact{};  ///< with all digits; empty: as shown
+  std::string_view tip{};
+  ImU32 color = color::kText;
+};
+void value_row(const Ui& ui, const ValueRow& row);
+/// The number with four digits and with all of them, and a unit behind.
+[[nodiscard]] ValueRow number_row(std::string_view name, std::string_view label, double value,
+                                  std::string_view unit, std::string_view tip);
+/// All digits that the number needs to be the same again.
+[[nodiscard]] std::string exact_text(double value);
+/// A button of small text, for strips of them.
+bool small_button(const Ui& ui, std::string_view name, std::string_view label, const ButtonStyle& style = {});
+/// A link: text that can be clicked.
+bool link(const Ui& ui, std::string_view name, std::string_view label);
+/// Text over as many lines as it takes.
+void wrapped(ImFont* font, ImU32 color, std::string_view text);
 
 /// "1 234 567": groups of three with thin gaps.
 [[nodiscard]] std::string count_text(std::size_t count);

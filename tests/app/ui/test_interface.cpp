@@ -97,10 +97,12 @@ TEST_F(InterfaceTest, TheSameDoneByKeys) {
   EXPECT_EQ(session.current->iteration, 1U);
   press(Key::home);
   EXPECT_EQ(session.current->geometry, session.original->geometry);
+  press(Key::end);
+  EXPECT_EQ(session.current->iteration, 2U);
   press(Key::z, {.control = true});
   EXPECT_EQ(session.current->iteration, 1U);
   press(Key::z, {.control = true, .shift = true});
-  EXPECT_EQ(session.current->iteration, 0U);
+  EXPECT_EQ(session.current->iteration, 2U);
 }
 
 TEST_F(InterfaceTest, RunButtonRunsTheNumberOfIterations) {

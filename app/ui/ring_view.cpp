@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ui/inspector_parts.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+// A plane seen from above, fitted into a rectangle.
+struct Sheet {
+  Vec3 origin = Vec3::Zero(), right = Vec3::UnitX(), up = Vec3::UnitY();
+  ImVec2 center{0, 0};
+  float scale = 1;  // pixels per unit of length
+
+  [[nodiscard]] ImVec2 at(const Vec3& p) const {
+    const Vec3 d = p - origin;
+    return {center.x + scale * static_cast<float>(d.dot(right)),
+            center.y - scale * static_cast<float>(d.dot(up))};
+  }
+};
+
+// The vertex' tangent plane; where it has none, the plane of the area-weighted normal.
+void lay_sheet(const model::Session& s, const VertexExplanation& e, std::span<const Vec3> x, Sheet& sheet) {
+  const auto& triangles = s.document->mesh().triangles;
+  Vec3 normal = Vec3::Zero();
+  for (const Corner c : s.document->topology.corners_of(e.vertex)) {
+    const Triangle& t = triangles[c / 3];
+    normal += area_vector(x[t[0]], x[t[1]], x[t[2]]);
+  }
+  if (normal.norm() > 0) normal.normalize();
+  // The view has up upwards where it can: so a ring looks as in the viewport.
+  const Vec3 wanted = std::abs(normal.y()) < 0.9 ? Vec3::UnitY() : Vec3(-Vec3::UnitZ());
+  sheet.origin = e.before;
+  sheet.up = (wanted - normal * normal.dot(wanted)).normalized();
+  sheet.right = sheet.up.cross(normal);
+}
+
+void arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 ink, float width) {
+  const ImVec2 way{to.x - from.x, to.y - from.y};
+  const float length = std::hypot(way.x, way.y);
+  if (length < 2) return;
+  const float head = std::min(4.5F * width, length);
+  const ImVec2 along{way.x / length, way.y / length};
+  const ImVec2 neck{to.x - head * along.x, to.y - head * along.y};
+  draw.AddLine(from, neck, ink, width);
+  draw.AddTriangleFilled(to, {neck.x - 0.5F * head * along.y, neck.y + 0.5F * head * along.x},
+                         {neck.x + 0.5F * head * along.y, neck.y - 0.5F * head * along.x}, ink);
+}
+
+// Words in the colours of what they name, in one line.
+void key(const Ui& ui, std::initializer_list<std::pair<const char*, ImU32>> entries, ImVec2 at) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const auto& [label, ink] : entries) {
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, at, ink, label);
+    at.x += ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9F, 0, label).x + ui.px(14);
+  }
+}
+
+Rect begin_picture(const Ui& ui, const char* name, float height) {
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::Dummy({width, height});
+  const Rect rect{low, {low.x + width, low.y + height}};
+  ImGui::GetWindowDrawList()->AddRectFilled(rect.low, rect.high, color::kBackdrop, ui.px(6));
+  mark_area(ui, name, rect);
+  return rect;
+}
+
+}  // namespace
+
+void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
+  const auto& step = ui.session.inspection.step;
+  if (!step) return;
+  const std::vector<Vec3>& x = *step->before;
+  const auto& triangles = ui.session.document->mesh().triangles;
+  const Rect rect = begin_picture(ui, "ring", height);
+  Sheet sheet;
+  lay_sheet(ui.session, e, x, sheet);
+  sheet.center = {rect.center().x, rect.center().y - ui.px(6)};
+  double reach = 0;
+  for (const Corner c : ui.session.document->topology.corners_of(e.vertex))
+    for (const Index v : triangles[c / 3]) reach = std::max(reach, (x[v] - e.before).norm());
+  if (!(reach > 0)) return;
+  sheet.scale = static_cast<float>((0.5 * height - ui.px(20)) / reach);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(rect.low, rect.high, true);
+  for (const Corner c : ui.session.document->topology.corners_of(e.vertex)) {
+    const Triangle& t = triangles[c / 3];
+    const ImVec2 a = sheet.at(x[t[0]]);
+    const ImVec2 b = sheet.at(x[t[1]]);
+    const ImVec2 d = sheet.at(x[t[2]]);
+    const bool sets = c / 3 == e.set_by;
+    draw.AddTriangleFilled(a, b, d, sets ? faded(color::kWorse, 0.35F) : color::kControl);
+    draw.AddTriangle(a, b, d, sets ? color::kWorse : color::kTextFaint, ui.px(1.2F));
+  }
+  if (const auto& path = ui.session.inspection.path; path && path->positions.size() > 1) {
+    std::vector<ImVec2> way;
+    for (const Vec3& p : path->positions) way.push_back(sheet.at(p));
+    draw.AddPolyline(way.data(), static_cast<int>(way.size()), faded(color::kText, 0.35F), ImDrawFlags_None,
+                     ui.px(1));
+  }
+  const ImVec2 at = sheet.at(e.before);
+  // The gradient is no length: it fills a fixed part of the picture.
+  if (e.tangent.norm() > 0)
+    arrow(draw, at, sheet.at(e.before - 0.55 * reach * e.gradient / e.gradient.norm()),
+          faded(color::kStages[0], 0.55F), ui.px(1.2F));
+  // Small moves are drawn larger, and that is said.
+  double factor = 1;
+  while (e.proposed.norm() > 0 && factor < 1e9 && 10 * factor * e.proposed.norm() < 0.9 * reach) factor *= 10;
+  arrow(draw, at, sheet.at(e.before + factor * e.proposed), color::kStages[2], ui.px(1.6F));
+  arrow(draw, at, sheet.at(e.before + factor * (e.after - e.before)), color::kStages[4], ui.px(2.2F));
+  draw.AddCircleFilled(at, ui.px(4), color::kText);
+  draw.PopClipRect();
+  if (factor > 1) {
+    const std::string text = "moves \xC3\x97 " + number_text("%.0f", factor);
+    const float width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9F, 0, text.c_str()).x;
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize,
+                 {std::floor(rect.high.x - ui.px(10) - width), rect.high.y - ui.px(20)}, color::kTextDim,
+                 text.c_str());
+  }
+  key(ui, {{"downhill", color::kTextDim}, {"proposed", color::kStages[2]}, {"moved", color::kStages[4]}},
+      {rect.low.x + ui.px(10), rect.high.y - ui.px(20)});
+}
+
+void draw_triangle_pair(const Ui& ui, const TriangleExplanation& e, float height) {
+  const auto& step = ui.session.inspection.step;
+  if (!step) return;
+  const std::vector<Vec3>& x = *step->before;
+  const Triangle& corners = ui.session.document->mesh().triangles[e.triangle];
+  const Rect rect = begin_picture(ui, "triangle-pair", height);
+  // Both flat, the first side along the picture, to one scale.
+  const Vec3 side = x[corners[1]] - x[corners[0]];
+  const Vec3 other = x[corners[2]] - x[corners[0]];
+  const double c = side.norm();
+  const double along = c > 0 ? other.dot(side) / c : 0;
+  const double over = c > 0 ? other.cross(side).norm() / c : 0;
+  const std::array<std::array<double, 2>, 3> own{{{0, 0}, {c, 0}, {along, over}}};
+  double reach = 0;
+  for (const auto& points : {own, e.reference})
+    for (const auto& p : points)
+      for (const auto& q : points) reach = std::max({reach, std::abs(p[0] - q[0]), std::abs(p[1] - q[1])});
+  if (!(reach > 0)) return;
+  const float scale = static_cast<float>(std::min(0.42 * rect.width(), 1.0 * height - ui.px(48)) / reach);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto show = [&](const std::array<std::array<double, 2>, 3>& points, float middle, ImU32 ink,
+                        const char* label) {
+    std::array<ImVec2, 3> at;
+    const auto [left, right] = std::minmax({points[0][0], points[1][0], points[2][0]});
+    const auto [low, high] = std::minmax({points[0][1], points[1][1], points[2][1]});
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = {middle + scale * static_cast<float>(points[k][0] - 0.5 * (left + right)),
+               rect.center().y - ui.px(6) - scale * static_cast<float>(points[k][1] - 0.5 * (low + high))};
+    draw.AddTriangleFilled(at[0], at[1], at[2], faded(ink, 0.25F));
+    draw.AddTriangle(at[0], at[1], at[2], ink, ui.px(1.5F));
+    const float width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9F, 0, label).x;
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize,
+                 {std::floor(middle - 0.5F * width), rect.high.y - ui.px(20)}, color::kTextDim, label);
+  };
+  show(own, rect.low.x + 0.27F * rect.width(), color::kAccent, "the triangle");
+  show(e.reference, rect.low.x + 0.73F * rect.width(), color::kSecond, "its reference");
+}
+
+}  // namespace isorelax::ui

@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/panels.h"
+#include "ui/plot.h"
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+namespace {
+
+using model::Branch;
+using model::Stage;
+using model::StageKind;
+using model::Timeline;
+
+ImU32 branch_color(std::size_t branch) {
+  return color::kBranches[branch % std::size(color::kBranches)];
+}
+
+struct Transport {
+  std::string_view name, tip;
+  Icon icon;
+  Action action;
+  bool on = false;
+  bool enabled = true;
+};
+
+void draw_transport(const Ui& ui) {
+  const Playing& playing = ui.state.playing;
+  const bool recorded = !ui.session.timeline.empty();
+  const bool forward = playing.direction > 0;
+  const std::array<Transport, 6> kButtons{{
+      {"to-start", "To the mesh as opened.", Icon::to_start, Action::to_start, false, recorded},
+      {"play-back", "Play backwards.", playing.direction < 0 ? Icon::pause : Icon::run_back,
+       Action::play_backward, playing.direction < 0, recorded},
+      {"back", "One iteration back.", Icon::step_back, Action::step_back, false, recorded},
+      {"on", "One iteration on: the recorded one, or a new one at the end.", Icon::step, Action::step, false,
+       ui.session.can_smooth()},
+      {"play", "Play.", forward ? Icon::pause : Icon::run, Action::play_forward, forward, recorded},
+      {"to-end", "To the last iteration.", Icon::to_end, Action::to_end, false, recorded},
+  }};
+  for (const Transport& t : kButtons) {
+    if (button(ui, t.name, "",
+               {.icon = t.icon,
+                .look = t.on ? ButtonLook::pressed : ButtonLook::quiet,
+                .width = ui.px(28),
+                .height = ui.px(26),
+                .enabled = t.enabled}))
+      perform(ui, t.action);
+    tooltip(ui, t.tip, keys_of(t.action));
+    ImGui::SameLine(0, ui.px(1));
+  }
+  const auto speed = static_cast<std::size_t>(playing.speed);
+  ImGui::SameLine(0, ui.px(5));
+  const std::string label = number_text("%.0f", kPlaySpeeds.at(speed)) + "/s";
+  if (small_button(ui, "speed", label, {.width = ui.px(44), .height = ui.px(26)}))
+    ui.state.playing.speed = static_cast<int>((speed + 1) % kPlaySpeeds.size());
+  tooltip(ui, "Iterations per second when playing: the next speed.");
+}
+
+struct StageButton {
+  std::string label;
+  std::string_view tip;
+  Stage stage;
+  bool on = false;
+  bool enabled = true;
+};
+
+// Which round of its kind a pass is, and how many there are.
+std::string round_label(const model::StepSummary* step, const model::Session& s, Limit why,
+                        std::string_view name, std::optional<Stage>& first) {
+  const unsigned total = step == nullptr ? 0 : why == kLimitFold ? step->fold_passes : step->energy_passes;
+  const auto& view = s.inspection.step;
+  unsigned at = 0;
+  if (view && view->record->detail) {
+    unsigned seen = 0;
+    const auto& passes = view->record->detail->passes;
+    for (unsigned k = 0; k < passes.size(); ++k) {
+      if (passes[k].why != why) continue;
+      ++seen;
+      if (!first) first = Stage{StageKind::control, k};
+      if (s.timeline.cursor.stage == Stage{StageKind::control, k}) at = seen;
+    }
+  } else if (total > 0 && why == kLimitFold) {
+    first = Stage{StageKind::control, 0};
+  }
+  if (total == 0) return std::string(name);
+  return std::string(name) + " " + (at > 0 ? std::to_string(at) + "/" : "") + std::to_string(total);
+}
+
+std::vector<StageButton> stage_buttons(const model::Session& s) {
+  const auto& chosen = s.timeline.cursor.stage;
+  const model::StepSummary* step = s.timeline.step(s.timeline.cursor.branch, s.timeline.cursor.iteration);
+  const auto plain = [&](std::string label, std::string_view tip, StageKind kind) {
+    return StageButton{std::move(label), tip, Stage{kind}, chosen == Stage{kind}};
+  };
+  std::vector<StageButton> buttons{
+      plain("Gradient", "Downhill: minus the gradient of the energy. Lengths compare with each other only.",
+            StageKind::gradient),
+      plain("Tangent", "What of it lies in the tangent plane, or along the ridge.", StageKind::tangent),
+      plain("Proposed", "The move that the solver makes of it.", StageKind::proposed)};
+  for (const Limit why : {kLimitFold, kLimitEnergy}) {
+    std::optional<Stage> first;
+    std::string label = round_label(step, s, why, why == kLimitFold ? "Control" : "Guard", first);
+    const bool on = label.find('/') != std::string::npos;
+    buttons.push_back({std::move(label),
+                       why == kLimitFold ? "Rounds of the step control: what folds is cut back."
+                                         : "Rounds of the energy guard: where the energy rose is cut back.",
+                       first.value_or(Stage{}), on, first.has_value()});
+  }
+  buttons.push_back(plain("Moved", "The move that was made.", StageKind::moved));
+  return buttons;
+}
+
+void draw_stages(const Ui& ui, float right) {
+  constexpr std::array<float, 6> kWidths{58, 56, 62, 74, 62, 50};
+  const auto buttons = stage_buttons(ui.session);
+  float width = 0;
+  for (const float w : kWidths) width += ui.px(w);
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - width), 0);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + width, low.y + ui.px(26)}, color::kControl,
+                                            ImGui::GetStyle().FrameRounding);
+  for (std::size_t k = 0; k < buttons.size(); ++k) {
+    const StageButton& b = buttons[k];
+    if (k > 0) ImGui::SameLine(0, 0);
+    const std::string name = "stage/" + b.label.substr(0, b.label.find(' '));
+    if (small_button(ui, name, b.label,
+                     {.look = b.on ? ButtonLook::pressed : ButtonLook::quiet,
+                      .width = ui.px(kWidths.at(k)),
+                      .height = ui.px(26),
+                      .enabled = b.enabled && !ui.session.is_running()}))
+      ui.command(model::SetStage{b.on ? std::nullopt : std::optional(b.stage)});
+    tooltip(ui, b.enabled ? b.tip : "Nothing was cut back in this step.", keys_of(Action::next_stage));
+  }
+}
+
+std::string caption(const model::Session& s) {
+  const Timeline& timeline = s.timeline;
+  if (timeline.empty()) return "Nothing has been run yet: Space runs, Right makes one step.";
+  std::string text = "Iteration " + std::to_string(timeline.cursor.iteration) + " of " +
+                     std::to_string(timeline.last()) + "   \xC2\xB7   " + timeline.current()->name;
+  if (s.is_running()) return text;
+  if (s.is_seeking()) return text + "   \xC2\xB7   going there";
+  if (!s.continues_branch()) text += "   \xC2\xB7   Run begins a branch here";
+  return text;
+}
+
+// From iterations to pixels.
+struct Track {
+  Rect area;
+  unsigned last = 1;
+
+  [[nodiscard]] float x(double iteration) const {
+    return area.low.x + static_cast<float>(iteration / last) * area.width();
+  }
+  [[nodiscard]] unsigned iteration(float at) const {
+    const float share = std::clamp((at - area.low.x) / area.width(), 0.0F, 1.0F);
+    return static_cast<unsigned>(std::lround(share * static_cast<float>(last)));
+  }
+};
+
+void draw_curve(const Track& track, const std::vector<model::IterationRow>& rows,
+                double model::IterationRow::*field, ImU32 ink, float width) {
+  if (rows.size() < 2) return;
+  const auto [low, high] = std::ranges::minmax(rows, {}, field);
+  const double span = high.*field - low.*field;
+  if (!(span > 0) || !std::isfinite(span)) return;
+  std::vector<ImVec2> points;
+  for (const model::IterationRow& row : rows) {
+    const double share = (row.*field - low.*field) / span;
+    points.emplace_back(track.x(row.iteration),
+                        track.area.high.y - static_cast<float>(0.1 + 0.8 * share) * track.area.height());
+  }
+  ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()), ink,
+                                          ImDrawFlags_None, width);
+}
+
+// One bar for each branch, from where it began to where it ends.
+void draw_lanes(const Ui& ui, const Track& track) {
+  const auto& branches = ui.session.timeline.branches;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float each = std::min(ui.px(7), track.area.height() / static_cast<float>(branches.size()));
+  for (std::size_t k = 0; k < branches.size(); ++k) {
+    const float y = track.area.low.y + each * static_cast<float>(k);
+    const bool present = k == ui.session.timeline.cursor.branch;
+    const ImU32 ink = faded(branch_color(k), present ? 1.0F : 0.4F);
+    const Rect lane{{track.x(branches[k].start), y + 1}, {track.x(branches[k].tip()), y + each - 1}};
+    draw.AddRectFilled(lane.low, {std::max(lane.high.x, lane.low.x + 2), lane.high.y}, ink, ui.px(1.5F));
+    mark_area(ui, "lane/" + std::to_string(k), lane);
+  }
+}
+
+void draw_hits(const Ui& ui, const Track& track) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const model::BreakHit& hit : ui.session.hits) {
+    if (hit.branch != ui.session.timeline.cursor.branch) continue;
+    const ImU32 ink = hit.action == model::BreakAction::stop ? color::kWorse : color::kWarning;
+    draw.AddCircleFilled({track.x(hit.iteration), track.area.high.y - ui.px(4)}, ui.px(3), ink);
+  }
+}
+
+void draw_cursor(const Ui& ui, const Track& track) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float x = std::floor(track.x(ui.session.timeline.cursor.iteration)) + 0.5F;
+  const float top = track.area.low.y - ui.px(3);
+  draw.AddLine({x, top}, {x, track.area.high.y}, color::kText, ui.px(1.5F));
+  draw.AddTriangleFilled({x - ui.px(5), top - ui.px(3)}, {x + ui.px(5), top - ui.px(3)}, {x, top + ui.px(4)},
+                         color::kText);
+}
+
+// Clicks and drags; a press on another branch' bar goes over to it.
+void scrub(const Ui& ui, const Track& track) {
+  const model::Session& s = ui.session;
+  if (s.timeline.empty()) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const unsigned at = track.iteration(mouse.x);
+  if (ImGui::IsItemActivated()) {
+    ui.state.playing.direction = 0;
+    for (std::size_t k = 0; k < s.timeline.branches.size(); ++k) {
+      const Rect& lane = ui.state.rects.find("lane/" + std::to_string(k))->second;
+      const bool inside = mouse.y >= lane.low.y && mouse.y < lane.high.y && mouse.x >= lane.low.x - 3 &&
+                          mouse.x <= lane.high.x + 3;
+      if (inside && k != s.timeline.cursor.branch) {
+        ui.command(model::Seek{at, static_cast<unsigned>(k)});
+        return;
+      }
+    }
+  }
+  if (ImGui::IsItemActive() && std::min(at, s.timeline.last()) != s.timeline.cursor.iteration)
+    ui.command(model::Seek{at, {}});
+  if (!ImGui::IsItemHovered()) return;
+  const auto& rows = s.history;
+  const auto row = std::ranges::find(rows, at, &model::IterationRow::iteration);
+  std::string text = "Iteration " + std::to_string(at);
+  if (row != rows.end())
+    text += "\nEnergy " + number_text("%.6g", row->energy) + "\nSmallest angle " +
+            number_text("%.2f", row->min_angle_deg) + "\xC2\xB0";
+  for (const model::BreakHit& hit : s.hits)
+    if (hit.iteration == at && hit.branch == s.timeline.cursor.branch) text += "\n" + hit.text;
+  ImGui::BeginTooltip();
+  text_in(ui.fonts.small, color::kText, text);
+  ImGui::EndTooltip();
+}
+
+void draw_track(const Ui& ui, const Rect& area) {
+  const model::Session& s = ui.session;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const Track track{area, std::max(1U, s.timeline.longest())};
+  draw.AddRectFilled(area.low, area.high, color::kBackdrop, ui.px(4));
+  ImGui::SetCursorScreenPos({area.low.x - ui.px(6), area.low.y - ui.px(6)});
+  ImGui::InvisibleButton("track", {area.width() + ui.px(12), area.height() + ui.px(10)});
+  mark_area(ui, "track", area);
+  if (s.timeline.empty()) return;
+  draw_curve(track, s.history, &model::IterationRow::energy, faded(color::kAccent, 0.55F), ui.px(1.25F));
+  draw_curve(track, s.history, &model::IterationRow::min_angle_deg, faded(color::kSecond, 0.55F),
+             ui.px(1.25F));
+  draw_lanes(ui, track);
+  draw_hits(ui, track);
+  draw_cursor(ui, track);
+  const float line = ui.fonts.small->FontSize;
+  for (const double t : round_ticks(0, track.last, 8)) {
+    if (t != std::floor(t)) continue;
+    const std::string text = number_text("%.0f", t);
+    const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
+    draw.AddLine({track.x(t), area.high.y}, {track.x(t), area.high.y + ui.px(3)}, color::kLine);
+    draw.AddText(ui.fonts.small, line,
+                 {std::floor(std::clamp(track.x(t) - 0.5F * width, area.low.x, area.high.x - width)),
+                  area.high.y + ui.px(3)},
+                 color::kTextFaint, text.c_str());
+  }
+  scrub(ui, track);
+}
+
+// What the two curves behind the track are.
+void draw_key(const Ui& ui, float right, float y) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float line = ui.fonts.small->FontSize;
+  constexpr std::array<std::pair<const char*, ImU32>, 2> kKey{
+      {{"smallest angle", color::kSecond}, {"energy", color::kAccent}}};
+  for (const auto& [label, ink] : kKey) {
+    right -= ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, label).x;
+    draw.AddText(ui.fonts.small, line, {std::floor(right), y}, color::kTextFaint, label);
+    right -= ui.px(16);
+    draw.AddLine({right, y + 0.55F * line}, {right + ui.px(11), y + 0.55F * line}, ink, ui.px(1.5F));
+    right -= ui.px(12);
+  }
+}
+
+}  // namespace
+
+void draw_timeline(const Ui& ui, const Rect& rect) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(8)});
+  begin_panel("timeline", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  draw_transport(ui);
+  if (!ui.session.timeline.empty() && rect.width() > ui.px(610)) draw_stages(ui, rect.width() - ui.px(14));
+  const float line = ui.fonts.small->FontSize;
+  const float top = rect.low.y + ui.px(41);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::string text = caption(ui.session);
+  draw.AddText(ui.fonts.small, line, {rect.low.x + ui.px(14), top}, color::kTextDim, text.c_str());
+  if (!ui.session.timeline.empty()) draw_key(ui, rect.high.x - ui.px(14), top);
+  draw_track(ui, {{rect.low.x + ui.px(16), top + line + ui.px(8)},
+                  {rect.high.x - ui.px(16), rect.high.y - line - ui.px(6)}});
+  draw.AddLine(rect.low, {rect.high.x, rect.low.y}, color::kLine);
+  mark_area(ui, "timeline", rect);
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void play(const Ui& ui, float seconds) {
+  Playing& playing = ui.state.playing;
+  const model::Session& s = ui.session;
+  if (playing.direction == 0) return;
+  if (s.timeline.empty() || s.is_running()) {
+    playing.direction = 0;
+    return;
+  }
+  if (s.is_seeking()) return;  // an iteration is shown before the next one is asked for
+  playing.due += seconds * kPlaySpeeds.at(static_cast<std::size_t>(playing.speed));
+  const auto steps = static_cast<unsigned>(playing.due);
+  if (steps == 0) return;
+  playing.due -= static_cast<float>(steps);
+  const unsigned at = s.timeline.cursor.iteration;
+  const unsigned left = playing.direction > 0 ? s.timeline.last() - std::min(at, s.timeline.last()) : at;
+  if (left == 0) {
+    playing = {0, playing.speed, 0};
+    return;
+  }
+  const unsigned go = std::min(steps, left);
+  ui.command(model::Seek{playing.direction > 0 ? at + go : at - go, {}});
+}
+
+}  // namespace isorelax::ui

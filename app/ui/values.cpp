@@ -1,0 +1,76 @@
+#include <imgui_internal.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "ui/widgets.h"
+
+namespace isorelax::ui {
+
+std::string exact_text(double value) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+void value_row(const Ui& ui, const ValueRow& row) {
+  const std::string id = "##" + std::string(row.name);
+  const float height = ImGui::GetTextLineHeight() + ui.px(4);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const std::string& copied = row.exact.empty() ? row.shown : row.exact;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  if (ImGui::InvisibleButton(id.c_str(), {width, height})) ImGui::SetClipboardText(copied.c_str());
+  ImGui::PopStyleVar();
+  mark_area(ui, row.name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered)
+    draw.AddRectFilled({low.x - ui.px(5), low.y}, {low.x + width + ui.px(5), low.y + height},
+                       ImGui::IsItemActive() ? color::kControlActive : color::kControl, ui.px(4));
+  const float y = low.y + ui.px(2);
+  draw.AddText({low.x, y}, color::kTextDim, row.label.data(), row.label.data() + row.label.size());
+  const float text = ImGui::CalcTextSize(row.shown.c_str()).x;
+  draw.AddText({std::floor(low.x + width - text), y}, row.color, row.shown.c_str());
+  if (hovered) tooltip(ui, std::string(row.tip) + (row.tip.empty() ? "" : "\n") + copied, "Click to copy");
+}
+
+ValueRow number_row(std::string_view name, std::string_view label, double value, std::string_view unit,
+                    std::string_view tip) {
+  ValueRow row{name, label, number_text("%.4g", value), exact_text(value), tip};
+  if (std::isfinite(value)) row.shown += std::string(unit);
+  return row;
+}
+
+bool small_button(const Ui& ui, std::string_view name, std::string_view label, const ButtonStyle& style) {
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(7), ui.px(4)});
+  ButtonStyle small = style;
+  if (small.height <= 0) small.height = ui.px(24);
+  const bool pressed = button(ui, name, label, small);
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  return pressed;
+}
+
+bool link(const Ui& ui, std::string_view name, std::string_view label) {
+  const ImVec2 size = ImGui::CalcTextSize(label.data(), label.data() + label.size());
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(("##" + std::string(name)).c_str(), size);
+  mark(ui, name);
+  const bool hovered = ImGui::IsItemHovered();
+  const ImU32 ink = hovered ? color::kAccentHover : color::kAccent;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddText(low, ink, label.data(), label.data() + label.size());
+  if (hovered) draw.AddLine({low.x, low.y + size.y}, {low.x + size.x, low.y + size.y}, ink);
+  return pressed;
+}
+
+void wrapped(ImFont* font, ImU32 color, std::string_view text) {
+  ImGui::PushTextWrapPos(0);
+  text_in(font, color, text);
+  ImGui::PopTextWrapPos();
+}
+
+}  // namespace isorelax::ui
