@@ -87,20 +87,13 @@ void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord&
   detail.axis.resize(n);
   detail.tangent.resize(n);
   detail.proposed = record.displacement;
-  parallel_for_blocks(n, problem_.threads, [&](std::size_t begin, std::size_t end) {
-    std::array<VertexSums, kLanes> sums;
-    for (std::size_t first = begin; first < end; first += kLanes) {
-      const std::size_t count = std::min<std::size_t>(kLanes, end - first);
-      for (std::size_t i = 0; i < count; ++i) sums[i] = here_.gather(static_cast<Index>(first + i));
-      const auto axes =
-          tangent_axes(problem_, positions, static_cast<Index>(first), std::span(sums).first(count));
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t v = first + i;
-        const Mobility mobility = problem_.mobility[v];
-        detail.dimensions[v] = static_cast<std::uint8_t>(mobility);
-        detail.axis[v] = mobility == Mobility::none ? Vec3(Vec3::Zero()) : axes[i];
-        detail.tangent[v] = tangent_part(mobility, axes[i], record.gradient[v]);
-      }
+  TangentSweep(problem_).run(here_, positions, [&](const TangentBatch& batch) {
+    for (unsigned i = 0; i < batch.count; ++i) {
+      const Index v = batch.first + i;
+      const Mobility mobility = problem_.mobility[v];
+      detail.dimensions[v] = static_cast<std::uint8_t>(mobility);
+      detail.axis[v] = mobility == Mobility::none ? Vec3(Vec3::Zero()) : batch.axes[i];
+      detail.tangent[v] = batch.gradients[i];
     }
   });
 }
