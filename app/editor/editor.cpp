@@ -10,6 +10,7 @@
 #include "editor/embedded.h"
 #include "editor/session_view.h"
 #include "editor/step_overlay.h"
+#include "io/atomic_file.h"
 #include "mesh/error.h"
 #include "render/embedded.h"
 #include "render/overlay.h"
@@ -59,6 +60,7 @@ void Editor::frame(const FrameOptions& options) {
   scale_ = options.scale;
   acted_ = false;
   model::execute(session_, model::Collect{});
+  log_.follow(session_);
   const ImVec2 display{static_cast<float>(options.size.width), static_cast<float>(options.size.height)};
   const ui::Layout layout = ui::make_layout(interface_.state(), display, scale_);
   viewport_ = {std::max(1, static_cast<int>(layout.viewport.width())),
@@ -116,6 +118,8 @@ void Editor::fly_to(const render::Camera& to) {
 view::View Editor::present_view() const {
   const ui::Comparison& comparison = interface_.state().comparison;
   view::View view = view_of(session_, base_, camera_, pane(), scale_);
+  // In a narrow picture it would cover the mesh.
+  if (shows_others() && static_cast<float>(view.size.width) < 420 * scale_) view.legend = false;
   if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
     return view;
   view.difference = true;
@@ -146,7 +150,8 @@ bool Editor::shows_others() const {
 // What one picture of the viewport has: its part where several stand side by side.
 render::PictureSize Editor::pane() const {
   if (shows_others()) {
-    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size());
+    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size(), static_cast<float>(viewport_.width),
+                                      static_cast<float>(viewport_.height));
     return {std::max(1, viewport_.width / grid.columns), std::max(1, viewport_.height / grid.rows)};
   }
   if (interface_.state().comparison.mode != ui::CompareMode::side_by_side) return viewport_;
@@ -256,7 +261,7 @@ void Editor::pick(float x, float y) {
                                             static_cast<int>(at_x), static_cast<int>(at_y));
   current_.drawn = false;
   if (!found) {
-    model::execute(session_, model::ClearSelection{});
+    act(model::ClearSelection{});
     return;
   }
   const Triangle& t = session_.document->mesh().triangles[found->triangle];
@@ -264,11 +269,30 @@ void Editor::pick(float x, float y) {
   unsigned nearest = 0;
   while (t[nearest] != found->vertex) ++nearest;
   if (means_vertex(found->point, {positions[t[0]], positions[t[1]], positions[t[2]]}, nearest))
-    model::execute(session_, model::SelectVertex{found->vertex});
+    act(model::SelectVertex{found->vertex});
   else
-    model::execute(session_, model::SelectTriangle{found->triangle});
+    act(model::SelectTriangle{found->triangle});
   base_.selected.reset();
   interface_.state().tab = ui::SideTab::inspect;
+}
+
+void Editor::act(const model::Command& command) {
+  log_.note(command, session_, camera_, interface_.state());
+  model::execute(session_, command);
+}
+
+void Editor::look(const std::string& spec) {
+  if (session_.current)
+    camera_ = render::parse_camera(spec, session_.current->positions(), pane(), fit_options());
+}
+
+void Editor::save_script(const std::filesystem::path& path) {
+  try {
+    write_file_atomically(path, script());
+    say(model::MessageKind::info, "Saved " + path.string());
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
 }
 
 void Editor::say(model::MessageKind kind, const std::string& text) {
@@ -277,7 +301,7 @@ void Editor::say(model::MessageKind kind, const std::string& text) {
 
 void Editor::carry_out(const ui::Output& output) {
   for (const model::Command& command : output.commands) {
-    model::execute(session_, command);
+    act(command);
     // A triangle that came with a pasted view stays marked until another is.
     if (std::holds_alternative<model::SelectNextWorst>(command) ||
         std::holds_alternative<model::SelectVertex>(command) ||
@@ -311,14 +335,16 @@ void Editor::carry_out_request(const ui::Request& request) {
     pick(at->x, at->y);
   } else if (const auto* picture = std::get_if<ui::SavePicture>(&request)) {
     save_picture(picture->path);
+  } else if (const auto* file = std::get_if<ui::SaveScript>(&request)) {
+    save_script(file->path);
   } else if (std::holds_alternative<ui::CopyView>(request)) {
     copy_view();
   } else if (const auto* paste = std::get_if<ui::PasteView>(&request)) {
     paste_view(paste->text);
   } else if (std::holds_alternative<ui::RememberState>(request)) {
     if (session_.current) partner_.remember(session_, interface_.state().comparison);
-  } else if (const auto* file = std::get_if<ui::CompareWithFile>(&request)) {
-    partner_.read(file->path);
+  } else if (const auto* other = std::get_if<ui::CompareWithFile>(&request)) {
+    partner_.read(other->path);
   } else {
     quit_ = true;
   }
@@ -355,7 +381,7 @@ void Editor::paste_view(const std::string& text) {
       view.camera = render::parse_camera(*spec, session_.current->positions(), pane(), fit_options());
     flight_.reset();
     camera_ = std::get<render::Camera>(view.camera);
-    model::execute(session_, model::SetView{settings_of(view, session_.view)});
+    act(model::SetView{settings_of(view, session_.view)});
     const bool other_size = view.size != pane();
     const std::string size = std::to_string(view.size.width) + " x " + std::to_string(view.size.height);
     base_ = std::move(view);

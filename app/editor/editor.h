@@ -7,6 +7,7 @@
 
 #include "editor/painter.h"
 #include "editor/partner.h"
+#include "editor/session_log.h"
 #include "editor/view_scene.h"
 #include "model/command.h"
 #include "render/renderer.h"
@@ -34,6 +35,16 @@ class Editor {
   void show(render::PictureSize window) const { painter_.show(window); }
   /// The last frame.
   [[nodiscard]] render::Image picture() const { return painter_.read_back(); }
+
+  /// Executes a command as if the interface had asked for it: it is written down.
+  void act(const model::Command& command);
+  /// Carries out a request as if the interface had made it.
+  void ask(const ui::Request& request) { carry_out_request(request); }
+  /// Takes a camera, or the one that a text means for the mesh (render::parse_camera). Throws UsageError.
+  void look(const render::Camera& camera) { camera_ = camera; }
+  void look(const std::string& spec);
+  /// What was done so far, as a script (script.h).
+  [[nodiscard]] std::string script() const { return log_.text(camera_, interface_.state()); }
 
   /// Whether another frame would look different without any new input.
   [[nodiscard]] bool is_restless() const;
@@ -96,6 +107,7 @@ class Editor {
   void carry_out_request(const ui::Request& request);
   void fly_to(const render::Camera& to);
   void save_picture(const std::filesystem::path& path);
+  void save_script(const std::filesystem::path& path);
   void copy_view();
   void paste_view(const std::string& text);
   void say(model::MessageKind kind, const std::string& text);
@@ -108,6 +120,7 @@ class Editor {
   std::vector<std::unique_ptr<KeptPicture>> others_;  // of the branches beside the present one
   Painter painter_;
   Partner partner_;
+  SessionLog log_;
   Motion motion_;
   render::Camera camera_;
   view::View base_;  ///< pasted last: what the session has no setting for

@@ -167,8 +167,9 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   return words;
 }
 
-std::optional<SmoothingSettings> from_words(std::span<const std::string> words) {
-  SmoothingSettings settings;
+std::optional<SmoothingSettings> from_words(std::span<const std::string> words,
+                                            const SmoothingSettings& others) {
+  SmoothingSettings settings = others;
   if (words.size() % 2 != 0) return std::nullopt;
   for (std::size_t k = 0; k < words.size(); k += 2) {
     const auto reader = readers().find(words[k]);

@@ -116,9 +116,16 @@ bool drag_divider(const Ui& ui, const Rect& rect) {
   return comparison.dragged;
 }
 
-Grid grid_of(std::size_t pictures) {
-  if (pictures == 4) return {2, 2};
-  return {static_cast<int>(std::max<std::size_t>(1, pictures)), 1};
+Grid grid_of(std::size_t pictures, float width, float height) {
+  Grid best;
+  float longest = 0;
+  const int count = static_cast<int>(std::max<std::size_t>(1, pictures));
+  for (int columns = 1; columns <= count; ++columns) {
+    const int rows = (count + columns - 1) / columns;
+    const float side = std::min(width / static_cast<float>(columns), height / static_cast<float>(rows));
+    if (side > longest) best = {columns, rows}, longest = side;
+  }
+  return best;
 }
 
 namespace {
@@ -126,7 +133,7 @@ namespace {
 // The present run at the upper left, the others behind it, each with its name.
 void draw_grid(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   const model::Session& s = ui.session;
-  const Grid grid = grid_of(1 + image.others.size());
+  const Grid grid = grid_of(1 + image.others.size(), rect.width(), rect.height());
   const float width = std::floor(rect.width() / static_cast<float>(grid.columns));
   const float height = std::floor(rect.height() / static_cast<float>(grid.rows));
   ImDrawList& draw = *ImGui::GetWindowDrawList();

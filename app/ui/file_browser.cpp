@@ -19,7 +19,7 @@ constexpr const char* kTitle = "file-browser";
 
 bool saves(FilePurpose purpose) {
   return purpose == FilePurpose::save_mesh || purpose == FilePurpose::save_picture ||
-         purpose == FilePurpose::save_trace;
+         purpose == FilePurpose::save_trace || purpose == FilePurpose::save_script;
 }
 
 std::string lower(std::string text) {
@@ -32,6 +32,7 @@ bool fits(FilePurpose purpose, const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   if (purpose == FilePurpose::save_picture) return extension == ".png";
   if (purpose == FilePurpose::save_trace || purpose == FilePurpose::add_trace) return extension == ".trace";
+  if (purpose == FilePurpose::save_script) return extension == ".script";
   if (purpose == FilePurpose::open_mesh && extension == ".trace") return true;
   return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
 }
@@ -88,6 +89,8 @@ std::string_view title(FilePurpose purpose) {
       return "Choose a mesh to compare with";
     case FilePurpose::save_trace:
       return "Save the run as a trace";
+    case FilePurpose::save_script:
+      return "Save what was done as a script";
     case FilePurpose::add_trace:
       return "Add a recorded run of this mesh";
     case FilePurpose::reference:
@@ -113,6 +116,9 @@ void deliver(const Ui& ui, const fs::path& path) {
       break;
     case FilePurpose::save_trace:
       ui.command(model::SaveTrace{path});
+      break;
+    case FilePurpose::save_script:
+      ui.request(SaveScript{path});
       break;
     case FilePurpose::add_trace:
       ui.command(model::AddTrace{path});
@@ -153,7 +159,8 @@ void accept(const Ui& ui) {
     return;
   }
   if (!fits(browser.purpose, path))
-    browser.error = browser.purpose == FilePurpose::save_picture ? "The name of a picture ends in .png"
+    browser.error = browser.purpose == FilePurpose::save_picture  ? "The name of a picture ends in .png"
+                    : browser.purpose == FilePurpose::save_script ? "The name of a script ends in .script"
                     : browser.purpose == FilePurpose::save_trace
                         ? "The name of a trace ends in .trace"
                         : "The name ends in .off, .obj, .ply or .stl";
@@ -334,6 +341,7 @@ void ask_for_file(const Ui& ui, FilePurpose purpose) {
     const fs::path& path = ui.session.save_path ? *ui.session.save_path : ui.session.document->path;
     const std::string stem = path.stem().string();
     if (purpose == FilePurpose::save_picture) browser.name = stem + ".png";
+    if (purpose == FilePurpose::save_script) browser.name = stem + ".script";
     if (purpose == FilePurpose::save_trace) browser.name = stem + ".trace";
     if (purpose == FilePurpose::save_mesh)
       browser.name =

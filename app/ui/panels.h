@@ -23,8 +23,8 @@ struct Grid {
   int columns = 1;
   int rows = 1;
 };
-/// Up to three side by side, four in two rows.
-[[nodiscard]] Grid grid_of(std::size_t pictures);
+/// The grid in which pictures of a viewport of this size have the longest shorter side.
+[[nodiscard]] Grid grid_of(std::size_t pictures, float width, float height);
 
 /// Moves the divider of a split with the pointer; whether the pointer has hold of it. Belongs behind the
 /// viewport's item.

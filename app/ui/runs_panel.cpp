@@ -106,6 +106,10 @@ void draw_traces(const Ui& ui) {
   if (button(ui, "add-trace", "Add trace", {.icon = Icon::open, .width = half}))
     ask_for_file(ui, FilePurpose::add_trace);
   tooltip(ui, "A recorded run of this mesh, beside those that are here.");
+  if (button(ui, "save-script", "Save what was done as a script",
+             {.look = ButtonLook::quiet, .width = ImGui::GetContentRegionAvail().x}))
+    ask_for_file(ui, FilePurpose::save_script);
+  tooltip(ui, "isorelax script FILE does it again, without a window: for a report of a fault.");
 }
 
 void draw_memory(const Ui& ui) {

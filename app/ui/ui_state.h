@@ -48,6 +48,10 @@ struct PickAt {
 struct SavePicture {
   std::filesystem::path path;
 };
+/// Writes down what was done so far as a script.
+struct SaveScript {
+  std::filesystem::path path;
+};
 /// Puts the view into the clipboard as text.
 struct CopyView {};
 /// Takes over a view from text.
@@ -62,7 +66,7 @@ struct CompareWithFile {
 };
 struct Quit {};
 using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, PickAt, SavePicture,
-                             CopyView, PasteView, RememberState, CompareWithFile, Quit>;
+                             SaveScript, CopyView, PasteView, RememberState, CompareWithFile, Quit>;
 
 /// What one frame of the interface asks for, in order.
 struct Output {
@@ -79,6 +83,7 @@ enum class FilePurpose : std::uint8_t {
   comparison,
   save_trace,
   add_trace,
+  save_script,
 };
 
 /// How the mesh is shown beside another state of it.

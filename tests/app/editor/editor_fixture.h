@@ -19,7 +19,7 @@ inline constexpr render::PictureSize kSize{1280, 720};
 class EditorTest : public ::testing::Test {
  protected:
   void frames(int count = 4) {
-    for (int k = 0; k < count; ++k) editor.frame({.size = kSize, .scale = 1, .time = time += 0.02});
+    for (int k = 0; k < count; ++k) editor.frame({.size = kSize, .scale = 1, .time = time += tick});
   }
   void settle() {
     do {
@@ -77,6 +77,7 @@ class EditorTest : public ::testing::Test {
       render::OffscreenContext::create(render::ContextKind::osmesa);
   Editor editor{context->loader(), Motion::instant};
   double time = 0;
+  double tick = 0.02;  ///< seconds between frames
 };
 
 }  // namespace isorelax::editor

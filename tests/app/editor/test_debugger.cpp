@@ -8,6 +8,7 @@ namespace {
 /// The debugger as a person uses it: by keys, clicks and pictures.
 class DebuggerTest : public EditorTest {
  protected:
+  DebuggerTest() { tick = 0.2; }  // nothing here depends on how long tooltips wait
   void open_and_run(unsigned iterations = 12) {
     open(folder.make_square());
     editor.session().smoothing.iterations = iterations;
@@ -16,10 +17,6 @@ class DebuggerTest : public EditorTest {
   }
   [[nodiscard]] model::Session& session() { return editor.session(); }
   [[nodiscard]] const model::Cursor& cursor() { return editor.session().timeline.cursor; }
-  void do_and_settle(const model::Command& command) {
-    model::execute(session(), command);
-    settle();
-  }
 };
 
 TEST_F(DebuggerTest, KeysGoThroughTheTimeline) {

@@ -1,0 +1,292 @@
+#include "editor/script.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include "editor/editor.h"
+#include "editor/script_words.h"
+#include "mesh/error.h"
+#include "render/offscreen.h"
+#include "render/picture_size.h"
+#include "trace/predicate.h"
+
+namespace isorelax::editor {
+namespace {
+
+using Words = std::span<const std::string>;
+
+constexpr std::array kEditorWords{
+    ScriptWord{"screenshot FILE.png", "the whole editor"},
+    ScriptWord{"picture FILE.png", "what the viewport shows"},
+    ScriptWord{"size WxH", "of the editor, in pixels"},
+    ScriptWord{"camera ...",
+               "a view as isorelax render takes it (iso, 30,20,2, ...), or the recorded numbers"},
+    ScriptWord{"frame, fly", "show the whole mesh; go to what is selected"},
+    ScriptWord{"tab NAME", "quality, inspect, debug or runs"},
+    ScriptWord{"show MODE [WITH]", "off, split, blink, side, ghost or change; with original or beside"},
+    ScriptWord{"click NAME", "a control of the editor by its name, such as run or stage/Tangent"},
+    ScriptWord{"key KEYS", "as the help page names them, such as Shift+Right, Enter or Tab"},
+    ScriptWord{"type TEXT", "into the field that has the focus"},
+    ScriptWord{"expect PREDICATE", "of the shown iteration; what does not hold is told, with exit status 1"},
+};
+
+constexpr std::array<std::string_view, 4> kTabs{"quality", "inspect", "debug", "runs"};
+constexpr std::array<std::string_view, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
+constexpr std::array<std::string_view, 4> kPartners{"original", "remembered", "file", "beside"};
+
+template <std::size_t N>
+std::size_t position(const std::array<std::string_view, N>& names, const std::string& word) {
+  const auto found = std::ranges::find(names, word);
+  if (found == names.end()) throw UsageError("\"" + word + "\" is not known here");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+ui::KeyChanged key_of(const std::string& text) {
+  for (const ui::Shortcut& shortcut : ui::shortcuts())
+    if (shortcut.keys == text) return {shortcut.key, true, shortcut.modifiers};
+  constexpr std::array<std::pair<std::string_view, ui::Key>, 5> kOthers{{{"Enter", ui::Key::enter},
+                                                                         {"Escape", ui::Key::escape},
+                                                                         {"Tab", ui::Key::tab},
+                                                                         {"Up", ui::Key::up},
+                                                                         {"Down", ui::Key::down}}};
+  for (const auto& [name, key] : kOthers)
+    if (name == text) return {key, true, {}};
+  throw UsageError("\"" + text + "\" is no key of the editor");
+}
+
+class Player {
+ public:
+  explicit Player(const ScriptOptions& options)
+      : options_(options),
+        folder_(options.file.parent_path()),
+        pictures_(options.pictures.empty() ? folder_ : options.pictures),
+        size_(options.size),
+        context_(render::OffscreenContext::create(render::ContextKind::osmesa)),
+        editor_(context_->loader(), Motion::instant) {}
+
+  ScriptResult play() {
+    std::ifstream file(options_.file);
+    if (!file) throw InputError(options_.file.string(), "", "cannot be read");
+    frames(2);
+    std::string line;
+    while (std::getline(file, line)) {
+      ++number_;
+      try {
+        const std::vector<std::string> words = split_words(line);
+        if (!words.empty()) obey(words);
+      } catch (const UsageError& error) {
+        throw InputError(options_.file.string(), "line " + std::to_string(number_), error.what());
+      }
+      look_for_errors();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void frames(int count) {
+    for (int k = 0; k < count; ++k)
+      editor_.frame({.size = size_, .scale = options_.scale, .time = time_ += 0.2});
+  }
+
+  // The interface needs a few frames to take notice of what the worker did.
+  void settle() {
+    int left = 2000;
+    do {
+      model::finish(editor_.session());
+      frames(1);
+    } while (--left > 0 && (editor_.is_restless() || editor_.session().engine.busy()));
+    frames(2);
+  }
+
+  void look_for_errors() {
+    for (const model::Message& message : editor_.session().messages) {
+      if (message.number <= last_message_) continue;
+      last_message_ = message.number;
+      if (message.kind == model::MessageKind::error)
+        throw InputError(options_.file.string(), "line " + std::to_string(number_), message.text);
+    }
+  }
+
+  void execute(const model::Command& command) {
+    editor_.act(command);
+    settle();
+  }
+
+  void obey(Words words) {
+    if (const auto command = parse_line(words, editor_.session(), folder_)) {
+      execute(*command);
+      return;
+    }
+    const auto found = std::ranges::find(handlers_, words.front(), &Handler::name);
+    if (found == handlers_.end()) throw UsageError("\"" + words.front() + "\" is no command");
+    if (words.size() <= found->least) throw UsageError(words.front() + ": something is missing");
+    (this->*found->act)(words);
+    settle();
+  }
+
+  void run(Words words) {
+    if (words.size() < 2) {
+      execute(model::Run{});
+      return;
+    }
+    const std::array<std::string, 3> set{"set", "--iterations", words[1]};
+    execute(*parse_line(set, editor_.session(), folder_));
+    execute(model::Run{});
+  }
+
+  void screenshot(Words words) {
+    settle();
+    write(words[1], editor_.picture());
+  }
+
+  void picture(Words words) {
+    editor_.ask(ui::SavePicture{pictures_ / words[1]});
+    result_.pictures.push_back(pictures_ / words[1]);
+  }
+
+  void write(const std::string& name, const render::Image& image) {
+    render::write_png(pictures_ / name, image);
+    result_.pictures.push_back(pictures_ / name);
+  }
+
+  void resize(Words words) { size_ = render::parse_size(words[1]); }
+
+  void camera(Words words) {
+    if (words.size() > 3)
+      editor_.look(parse_camera_words(words));
+    else
+      editor_.look(words[1]);
+  }
+
+  void frame_mesh(Words /*words*/) { editor_.ask(ui::FrameView{}); }
+  void fly(Words /*words*/) { editor_.ask(ui::FlyToSelection{}); }
+  void tab(Words words) {
+    editor_.interface().state().tab = static_cast<ui::SideTab>(position(kTabs, words[1]));
+  }
+  void show(Words words) {
+    ui::Comparison& comparison = editor_.interface().state().comparison;
+    comparison.mode = static_cast<ui::CompareMode>(position(kModes, words[1]));
+    if (words.size() > 2) comparison.with = static_cast<ui::CompareWith>(position(kPartners, words[2]));
+  }
+
+  void click(Words words) {
+    const auto& rects = editor_.interface().state().rects;
+    const auto found = rects.find(words[1]);
+    if (found == rects.end()) throw UsageError("click: there is no \"" + words[1] + "\" to be seen");
+    const ImVec2 at = found->second.center();
+    auto& input = editor_.interface().input();
+    input.push(ui::PointerMoved{at.x, at.y});
+    settle();
+    input.push(ui::ButtonChanged{0, true});
+    input.push(ui::ButtonChanged{0, false});
+  }
+
+  void key(Words words) {
+    ui::KeyChanged press = key_of(words[1]);
+    editor_.interface().input().push(press);
+    press.down = false;
+    press.modifiers = {};
+    editor_.interface().input().push(press);
+  }
+
+  void type(Words words) {
+    std::string text;
+    for (const std::string& word : words.subspan(1)) text += (text.empty() ? "" : " ") + word;
+    editor_.interface().input().push(ui::TextTyped{text});
+  }
+
+  void expect(Words words) {
+    std::string text;
+    for (const std::string& word : words.subspan(1)) text += (text.empty() ? "" : " ") + word;
+    const Predicate predicate(text);
+    if (const std::string fault = fault_of(predicate); !fault.empty())
+      result_.failures.push_back(options_.file.string() + ": line " + std::to_string(number_) + ": " + fault);
+  }
+
+  // Predicates may ask for the arrays of the step: looking inside it brings them.
+  std::string fault_of(const Predicate& predicate) {
+    model::Session& session = editor_.session();
+    const auto stage = session.timeline.cursor.stage;
+    if (session.timeline.cursor.iteration == 0) return "there is no step to iteration 0 to look at";
+    if (!stage) execute(model::SetStage{model::Stage{}});
+    const auto& step = session.inspection.step;
+    const model::StepSummary* summary =
+        session.timeline.step(session.timeline.cursor.branch, session.timeline.cursor.iteration);
+    if (!step || summary == nullptr) return "the step could not be looked into";
+    const QualityReport& quality = session.current->quality();
+    TraceIteration numbers;
+    numbers.before = summary->before;
+    numbers.after = summary->after;
+    numbers.largest_move = summary->largest_move;
+    numbers.fold_passes = summary->fold_passes;
+    numbers.energy_passes = summary->energy_passes;
+    numbers.moved = summary->moved;
+    numbers.limits = summary->limits;
+    numbers.quality = {quality.min_angle_deg, quality.max_angle_deg, quality.mean_min_angle_deg,
+                       quality.inverted};
+    const Moment now{.iteration = session.timeline.cursor.iteration,
+                     .numbers = numbers,
+                     .record = *step->record,
+                     .positions = session.current->positions(),
+                     .triangles = session.document->mesh().triangles,
+                     .inverted_at_start = session.original->quality().inverted,
+                     .stop = session.timeline.cursor.iteration == session.timeline.last()};
+    const bool holds = predicate.holds(now);
+    if (!stage) execute(model::SetStage{});
+    return holds ? std::string() : "does not hold: " + predicate.text();
+  }
+
+  struct Handler {
+    std::string_view name;
+    std::size_t least;  // words behind it
+    void (Player::*act)(Words);
+  };
+  static constexpr std::array<Handler, 13> handlers_{{{"run", 0, &Player::run},
+                                                      {"screenshot", 1, &Player::screenshot},
+                                                      {"picture", 1, &Player::picture},
+                                                      {"size", 1, &Player::resize},
+                                                      {"camera", 1, &Player::camera},
+                                                      {"frame", 0, &Player::frame_mesh},
+                                                      {"fly", 0, &Player::fly},
+                                                      {"tab", 1, &Player::tab},
+                                                      {"show", 1, &Player::show},
+                                                      {"click", 1, &Player::click},
+                                                      {"key", 1, &Player::key},
+                                                      {"type", 1, &Player::type},
+                                                      {"expect", 1, &Player::expect}}};
+
+  ScriptOptions options_;
+  std::filesystem::path folder_, pictures_;
+  render::PictureSize size_;
+  std::unique_ptr<render::OffscreenContext> context_;
+  Editor editor_;
+  ScriptResult result_;
+  unsigned number_ = 0;
+  std::uint64_t last_message_ = 0;
+  double time_ = 0;
+};
+
+}  // namespace
+
+ScriptResult run_script(const ScriptOptions& options) {
+  return Player(options).play();
+}
+
+std::string script_reference() {
+  std::string text;
+  const auto list = [&](std::span<const ScriptWord> words) {
+    for (const ScriptWord& word : words) {
+      std::string line = "  " + std::string(word.usage);
+      if (!word.meaning.empty()) line += std::string(line.size() < 30 ? 30 - line.size() : 2, ' ');
+      text += line + std::string(word.meaning) + "\n";
+    }
+  };
+  list(model_words());
+  list(kEditorWords);
+  return text;
+}
+
+}  // namespace isorelax::editor

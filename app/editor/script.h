@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+
+namespace isorelax::editor {
+
+/// How a session of the editor is done again from its script.
+struct ScriptOptions {
+  std::filesystem::path file;           ///< the script; names in it are taken from its folder
+  std::filesystem::path pictures;       ///< folder for screenshots; empty: the script's
+  render::PictureSize size{1280, 720};  ///< of the editor, until the script says otherwise
+  float scale = 1;                      ///< pixels per point
+};
+
+/// What came of it.
+struct ScriptResult {
+  std::vector<std::filesystem::path> pictures;
+  /// Expectations that did not hold: "FILE: line 7: ..." each.
+  std::vector<std::string> failures;
+};
+
+/// Does what a script says, in an editor without a display: one command in a line, # begins a comment. After
+/// each line it waits until all is done. Throws InputError, with the line, for one that is not understood or
+/// cannot be done; OutputError; Error.
+[[nodiscard]] ScriptResult run_script(const ScriptOptions& options);
+
+/// All commands of scripts, a line each: for --help.
+[[nodiscard]] std::string script_reference();
+
+}  // namespace isorelax::editor

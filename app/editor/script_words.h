@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/command.h"
+#include "render/camera.h"
+
+namespace isorelax::editor {
+
+/// The words of a line of a script: between spaces, or in single or double quotes; # begins a comment. Throws
+/// UsageError for a quote that does not end.
+[[nodiscard]] std::vector<std::string> split_words(std::string_view line);
+/// In quotes where it needs them.
+[[nodiscard]] std::string quote_word(const std::string& word);
+
+/// A command of the model as a line of a script; empty for one that belongs to no script.
+[[nodiscard]] std::string to_line(const model::Command& command);
+/// The inverse; none where the first word is no command of the model. Paths are taken from `folder`. Throws
+/// UsageError: what was expected.
+[[nodiscard]] std::optional<model::Command> parse_line(std::span<const std::string> words,
+                                                       const model::Session& session,
+                                                       const std::filesystem::path& folder);
+
+/// "camera X Y Z AZIMUTH ELEVATION EXTENT y|z perspective|orthographic".
+[[nodiscard]] std::string to_line(const render::Camera& camera);
+/// Throws UsageError.
+[[nodiscard]] render::Camera parse_camera_words(std::span<const std::string> words);
+
+struct ScriptWord {
+  std::string_view usage, meaning;
+};
+/// The commands that parse_line knows.
+[[nodiscard]] std::span<const ScriptWord> model_words();
+
+}  // namespace isorelax::editor

@@ -1,0 +1,79 @@
+#include "editor/session_log.h"
+
+#include <array>
+#include <utility>
+
+#include "editor/script_words.h"
+
+namespace isorelax::editor {
+namespace {
+
+std::string_view first_word(std::string_view line) {
+  return line.substr(0, line.find(' '));
+}
+
+/// Of several in a row only the last one counts.
+bool replaces(std::string_view line, std::string_view before) {
+  const std::string_view word = first_word(line);
+  return word == first_word(before) && (word == "seek" || word == "set" || word == "view" ||
+                                        word == "camera" || word == "tab" || word == "show");
+}
+
+}  // namespace
+
+SessionLog::Looks SessionLog::looks_of(const render::Camera& camera, const ui::UiState& state) {
+  constexpr std::array<const char*, 4> kTabs{"quality", "inspect", "debug", "runs"};
+  constexpr std::array<const char*, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
+  constexpr std::array<const char*, 4> kPartners{"original", "remembered", "file", "beside"};
+  Looks looks{to_line(camera), std::string("tab ") + kTabs.at(static_cast<std::size_t>(state.tab)),
+              std::string("show ") + kModes.at(static_cast<std::size_t>(state.comparison.mode))};
+  if (state.comparison.mode != ui::CompareMode::off)
+    looks.comparison += std::string(" ") + kPartners.at(static_cast<std::size_t>(state.comparison.with));
+  return looks;
+}
+
+void SessionLog::add(std::string line) {
+  if (!lines_.empty() && replaces(line, lines_.back()))
+    lines_.back() = std::move(line);
+  else
+    lines_.push_back(std::move(line));
+}
+
+void SessionLog::note_looks(const Looks& now) {
+  if (now.camera != looks_.camera && !lines_.empty()) add(now.camera);
+  if (now.tab != looks_.tab) add(now.tab);
+  if (now.comparison != looks_.comparison && !(looks_.comparison.empty() && now.comparison == "show off"))
+    add(now.comparison);
+  looks_ = now;
+}
+
+void SessionLog::note(const model::Command& command, const model::Session& session,
+                      const render::Camera& camera, const ui::UiState& state) {
+  std::string line = to_line(command);
+  if (line.empty()) return;
+  note_looks(looks_of(camera, state));
+  const bool runs =
+      std::holds_alternative<model::Run>(command) || std::holds_alternative<model::Step>(command);
+  if (runs && session.can_smooth()) {
+    run_from_ = session.timeline.cursor.iteration;
+    return;
+  }
+  if (!runs) add(std::move(line));
+}
+
+void SessionLog::follow(const model::Session& session) {
+  if (!run_from_ || session.is_running() || session.is_seeking()) return;
+  const unsigned from = *std::exchange(run_from_, std::nullopt);
+  const unsigned at = session.timeline.cursor.iteration;
+  if (at > from) lines_.push_back("run " + std::to_string(at - from));
+}
+
+std::string SessionLog::text(const render::Camera& camera, const ui::UiState& state) const {
+  SessionLog ended = *this;
+  ended.note_looks(looks_of(camera, state));
+  std::string text = "# What was done in the editor of Isorelax. isorelax script FILE does it again.\n";
+  for (const std::string& line : ended.lines_) text += line + "\n";
+  return text + "screenshot end.png\n";
+}
+
+}  // namespace isorelax::editor
