@@ -119,7 +119,7 @@ view::View Editor::present_view() const {
   const ui::Comparison& comparison = interface_.state().comparison;
   view::View view = view_of(session_, base_, camera_, pane(), scale_);
   // In a narrow picture it would cover the mesh.
-  if (shows_others() && static_cast<float>(view.size.width) < 420 * scale_) view.legend = false;
+  if (shows_others() && static_cast<float>(view.size.width) < 560 * scale_) view.legend = false;
   if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
     return view;
   view.difference = true;

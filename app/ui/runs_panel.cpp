@@ -40,8 +40,8 @@ void draw_branch(const Ui& ui, unsigned k) {
   draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {low.x + ui.px(22), low.y + ui.px(24)},
                color::kTextFaint, range.c_str());
   if (present || s.timeline.branches.size() < 2) return;
-  ImGui::SameLine(0, ui.px(8));
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.px(9));
+  const ImVec2 below = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({low.x + width + ui.px(8), low.y + ui.px(10)});
   const bool beside = std::ranges::find(s.shown_branches, k) != s.shown_branches.end();
   if (small_button(ui, name + "/beside", beside ? "Hide" : "Beside",
                    {.look = beside ? ButtonLook::pressed : ButtonLook::plain,
@@ -49,6 +49,7 @@ void draw_branch(const Ui& ui, unsigned k) {
                     .enabled = beside || s.shown_branches.size() < kMostBeside}))
     toggle_beside(ui, k);
   tooltip(ui, "Show it beside the present run, at the same iteration and with the same camera.");
+  ImGui::SetCursorScreenPos(below);
 }
 
 void draw_difference(const Ui& ui) {

@@ -73,18 +73,13 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
 }
 
 TEST_F(ScriptTest, WhatWasDoneByHandIsWrittenDownAndDoneAgain) {
-  open(folder.make_square());  // not by hand
-  model::execute(editor.session(), model::OpenFile{folder / "square.off"});
-  editor.act(model::OpenFile{folder / "square.off"});
+  editor.act(model::OpenFile{folder.make_square()});
   settle();
-  editor.session().smoothing.tolerance = 0;
-  editor.session().smoothing.iterations = 6;
-  editor.act(model::SetSmoothing{[&] {
-                                   model::SmoothingSettings s = editor.session().smoothing;
-                                   s.mu_a = 0.3;
-                                   return s;
-                                 }(),
-                                 "mu"});
+  model::SmoothingSettings settings = editor.session().smoothing;
+  settings.tolerance = 0;
+  settings.iterations = 6;
+  settings.mu_a = 0.3;
+  editor.act(model::SetSmoothing{settings, "mu"});
   press(ui::Key::space);
   press(ui::Key::left);
   press(ui::Key::left);
@@ -95,9 +90,9 @@ TEST_F(ScriptTest, WhatWasDoneByHandIsWrittenDownAndDoneAgain) {
   EXPECT_NE(script.find("run 6"), std::string::npos) << script;
   EXPECT_NE(script.find("--mu 0.3"), std::string::npos) << script;
   EXPECT_NE(script.find("next-worst"), std::string::npos) << script;
+  const render::Image mine = part("viewport");  // before another context is made current
   const ScriptResult again = play(script, "again.script");
   ASSERT_EQ(again.pictures.size(), 1U);
-  const render::Image mine = part("viewport");
   const render::Image whole = render::read_png(again.pictures[0]);
   const ui::Rect at = editor.interface().state().rects.at("viewport");
   render::Image theirs(mine.width, mine.height);
