@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/jobs.h"
+#include "quality/inverted.h"
 
 namespace isorelax::model {
 namespace {
@@ -236,9 +237,18 @@ std::span<const double> Executor::worst_values() {
     case WorstBy::aspect_ratio:
       metric = FaceMetric::aspect_ratio;
       break;
+    case WorstBy::inverted:
+      break;
   }
   if (s_.worst_values_of_ != s_.current->geometry || s_.worst_values_by_ != s_.worst_by) {
-    s_.worst_values_ = face_metric(metric, s_.current->positions(), s_.document->mesh().triangles);
+    const auto& triangles = s_.document->mesh().triangles;
+    if (s_.worst_by == WorstBy::inverted) {
+      s_.worst_values_.assign(triangles.size(), 0);
+      for (const Index t : inverted_triangles(s_.current->positions(), triangles, s_.document->topology))
+        s_.worst_values_[t] = 1;
+    } else {
+      s_.worst_values_ = face_metric(metric, s_.current->positions(), triangles);
+    }
     s_.worst_values_of_ = s_.current->geometry;
     s_.worst_values_by_ = s_.worst_by;
   }
@@ -262,12 +272,15 @@ void Executor::operator()(const SelectNextWorst& /*command*/) {
   std::optional<Key> best;
   for (Index t = 0; t < values.size(); ++t) {
     if (last && key(t) <= key(*last)) continue;
+    if (s_.worst_by == WorstBy::inverted && values[t] == 0) continue;
     if (!best || key(t) < *best) best = key(t);
   }
   const std::size_t rank = best ? s_.worst_rank + 1 : 0;
   clear_selection();
   s_.worst_rank = rank;
   if (best) s_.selected_triangle = best->second;
+  if (!best && s_.worst_by == WorstBy::inverted)
+    say(MessageKind::info, "No other triangle lies upside down.");
   ask_about_step();
 }
 

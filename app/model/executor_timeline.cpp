@@ -23,8 +23,8 @@ bool has_converged(const RunResult& result) {
 
 std::string_view title(WorstBy by) {
   constexpr std::array<std::string_view, kWorstBy> kTitles{
-      "what the colours say", "smallest angle",  "largest angle", "area", "energy", "shape K",
-      "radius ratio",         "scaled Jacobian", "aspect ratio"};
+      "what the colours say", "smallest angle",  "largest angle", "area",       "energy", "shape K",
+      "radius ratio",         "scaled Jacobian", "aspect ratio",  "upside down"};
   return kTitles.at(static_cast<std::size_t>(by));
 }
 
@@ -237,7 +237,11 @@ void Executor::ask_about_step() {
       holder = *s_.timeline.branches[holder].parent;
     const Branch& branch = s_.timeline.branches[holder];
     request.settings = branch.settings;
-    request.place = {branch.recording, iteration - branch.start, branch.not_redone};
+    if (!branch.not_redone.empty()) {  // the inspector says why
+      s_.inspection = {};
+      return;
+    }
+    request.place = {branch.recording, iteration - branch.start, {}};
   }
   s_.engine.post("inspect", inspect_job(std::move(request)));
 }

@@ -37,9 +37,10 @@ enum class WorstBy : std::uint8_t {
   shape,
   radius_ratio,
   scaled_jacobian,
-  aspect_ratio
+  aspect_ratio,
+  inverted  ///< those that lie upside down, and no others
 };
-inline constexpr std::size_t kWorstBy = 9;
+inline constexpr std::size_t kWorstBy = 10;
 /// "smallest angle", ...: for people.
 [[nodiscard]] std::string_view title(WorstBy by);
 

@@ -31,7 +31,6 @@ enum class Key : std::uint8_t {
   a,
   b,
   c,
-  d,
   f,
   h,
   i,

@@ -131,6 +131,9 @@ void draw_triangle(const Ui& ui, Index triangle) {
 void draw_inspector(const Ui& ui) {
   draw_choice(ui);
   const model::Session& s = ui.session;
+  const model::Branch* branch = s.timeline.current();
+  if (branch != nullptr && !branch->not_redone.empty())
+    wrapped(ui.fonts.text, color::kWarning, "Steps cannot be looked into: " + branch->not_redone + ".");
   if (const auto& step = s.inspection.step; step && !step->mismatch.empty())
     wrapped(ui.fonts.text, color::kWarning, step->mismatch);
   if (s.selected_vertex) {

@@ -131,13 +131,15 @@ void hover_lines(const Ui& ui, const Frame& frame, const LinePlot& plot) {
   const float x = ImGui::GetIO().MousePos.x;
   const auto nearest =
       std::ranges::min_element(points, {}, [&](const ImVec2& p) { return std::abs(frame.x(p.x) - x); });
-  const auto index = static_cast<std::size_t>(nearest - points.begin());
   const float at = std::floor(frame.x(nearest->x)) + 0.5F;
   ImGui::GetWindowDrawList()->AddLine({at, frame.area.low.y}, {at, frame.area.high.y}, kAxis);
   std::vector<std::pair<std::string, ImU32>> lines;
-  for (const Line& line : plot.lines)
-    lines.emplace_back(line.label + "  " + number_text(plot.format.c_str(), line.points[index].y) + plot.unit,
-                       line.color);
+  for (const Line& line : plot.lines) {
+    // Lines may begin and end elsewhere than the first one.
+    const auto own = std::ranges::find(line.points, nearest->x, &ImVec2::x);
+    if (own == line.points.end()) continue;
+    lines.emplace_back(line.label + "  " + number_text(plot.format.c_str(), own->y) + plot.unit, line.color);
+  }
   read_out(ui, "Iteration " + number_text("%.0f", nearest->x), lines);
 }
 

@@ -128,6 +128,18 @@ Line make_line(const std::vector<model::IterationRow>& rows, double model::Itera
   return line;
 }
 
+// The runs beside the present one in the colours of the timeline.
+void add_runs_beside(const Ui& ui, double model::IterationRow::*field, LinePlot& plot) {
+  const model::Timeline& timeline = ui.session.timeline;
+  if (ui.session.shown_branches.empty() || timeline.empty()) return;
+  const auto ink = [](unsigned branch) { return color::kBranches[branch % std::size(color::kBranches)]; };
+  plot.lines.front().label = timeline.current()->name;
+  plot.lines.front().color = ink(timeline.cursor.branch);
+  for (const unsigned branch : ui.session.shown_branches)
+    plot.lines.push_back(
+        make_line(timeline.rows(branch), field, timeline.branches[branch].name, ink(branch)));
+}
+
 void draw_history(const Ui& ui, float height) {
   const auto& rows = ui.session.history;
   LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g"};
@@ -141,6 +153,7 @@ void draw_history(const Ui& ui, float height) {
     energy.low = wide ? low.energy * 0.9 : low.energy - pad;
     energy.high = wide ? high.energy * 1.1 : high.energy + pad;
   }
+  add_runs_beside(ui, &model::IterationRow::energy, energy);
   draw_lines(ui, energy, height);
   LinePlot angles{.name = "angle-plot",
                   .title = "WORST ANGLES",
@@ -151,7 +164,14 @@ void draw_history(const Ui& ui, float height) {
                   .ticks = {0, 60, 120, 180}};
   angles.marker = ui.session.current->iteration;
   angles.lines.push_back(make_line(rows, &model::IterationRow::min_angle_deg, "smallest", color::kAccent));
-  angles.lines.push_back(make_line(rows, &model::IterationRow::max_angle_deg, "largest", color::kSecond));
+  if (ui.session.shown_branches.empty()) {
+    angles.lines.push_back(make_line(rows, &model::IterationRow::max_angle_deg, "largest", color::kSecond));
+  } else {
+    angles.title = "SMALLEST ANGLE";
+    angles.high = 60;
+    angles.ticks = {0, 20, 40, 60};
+    add_runs_beside(ui, &model::IterationRow::min_angle_deg, angles);
+  }
   draw_lines(ui, angles, height);
 }
 

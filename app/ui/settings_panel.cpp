@@ -20,17 +20,25 @@ void end_edit_after_item(const Ui& ui) {
 }
 
 void draw_solver(const Ui& ui) {
-  constexpr std::array<std::string_view, 4> kSolvers{"Automatic", "Jacobi (paper)", "Newton", "L-BFGS"};
+  // The last two know no energy: what others do.
+  constexpr std::array<std::string_view, 6> kSolvers{"Automatic", "Jacobi (paper)", "Newton",
+                                                     "L-BFGS",    "Laplacian",      "Angle-based"};
+  constexpr int kMinimisers = 4;
   constexpr const char* kTip =
       "How each step is found: the paper's Jacobi step, Newton steps of each vertex, L-BFGS over all of "
       "them, or "
-      "Newton followed by L-BFGS.";
+      "Newton followed by L-BFGS. Laplacian and angle-based smoothing are there to compare with.";
   SmoothingSettings settings = ui.session.smoothing;
   row_label(ui, "Solver", kTip);
-  const int solver = combo(ui, "solver", kSolvers, static_cast<int>(settings.solver));
+  const bool minimises = settings.method == model::Method::near_isometry;
+  const int chosen =
+      minimises ? static_cast<int>(settings.solver) : kMinimisers - 1 + static_cast<int>(settings.method);
+  const int solver = combo(ui, "solver", kSolvers, chosen);
   tooltip(ui, kTip);
   if (solver >= 0) {
-    settings.solver = static_cast<Solver>(solver);
+    settings.method = solver < kMinimisers ? model::Method::near_isometry
+                                           : static_cast<model::Method>(solver - kMinimisers + 1);
+    if (solver < kMinimisers) settings.solver = static_cast<Solver>(solver);
     change(ui, settings, "Solver");
   }
   constexpr std::array<std::string_view, 5> kLabels{"1", "2", "4", "8", "16"};

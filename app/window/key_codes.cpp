@@ -31,7 +31,6 @@ ui::Key key_of(int glfw_key) {
       std::pair{GLFW_KEY_A, Key::a},
       std::pair{GLFW_KEY_B, Key::b},
       std::pair{GLFW_KEY_C, Key::c},
-      std::pair{GLFW_KEY_D, Key::d},
       std::pair{GLFW_KEY_F, Key::f},
       std::pair{GLFW_KEY_H, Key::h},
       std::pair{GLFW_KEY_I, Key::i},
