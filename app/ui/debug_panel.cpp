@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "trace/predicate_names.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -145,21 +146,24 @@ void draw_new_breakpoint(const Ui& ui) {
   typing.predicate.clear();
 }
 
+void draw_word(const Ui& ui, const std::string& word, std::string_view meaning) {
+  text_in(ui.fonts.small, color::kText, word);
+  ImGui::SameLine(ui.px(118));
+  wrapped(ui.fonts.small, color::kTextDim, meaning);
+}
+
 void draw_breakpoints(const Ui& ui) {
   heading(ui, "BREAKPOINTS");
   for (std::size_t k = 0; k < ui.session.breakpoints.size(); ++k) draw_breakpoint(ui, k);
   draw_new_breakpoint(ui);
   if (ImGui::TreeNodeEx("words", ImGuiTreeNodeFlags_NoTreePushOnOpen, "All words")) {
-    ImGui::PushFont(ui.fonts.small);
-    for (const auto& [label, ids] :
-         {std::pair{"min_angle < 5", "mesh"}, std::pair{"vertex(812).alpha < 0.1", "vertex"},
-          std::pair{"triangle(3).min_angle < 10", "triangle"}}) {
-      text_in(ui.fonts.small, color::kAccent, label);
-      ImGui::SameLine(ui.px(190));
-      text_in(ui.fonts.small, color::kTextFaint, ids);
-    }
-    ImGui::TextUnformatted(Predicate::reference().c_str());
-    ImGui::PopFont();
+    for (const PredicateName& word : predicate_names()) draw_word(ui, std::string(word.name), word.meaning);
+    for (const PredicateField& word : vertex_fields())
+      draw_word(ui, "vertex(ID)." + std::string(word.name), word.meaning);
+    for (const PredicateField& word : triangle_fields())
+      draw_word(ui, "triangle(ID)." + std::string(word.name), word.meaning);
+    wrapped(ui.fonts.small, color::kTextFaint,
+            "and numbers, + - * /, < <= > >= == !=, ! && || and parentheses");
   }
   mark(ui, "words");
 }

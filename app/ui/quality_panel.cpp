@@ -220,6 +220,28 @@ void draw_side_panel(const Ui& ui, const Rect& rect) {
   ImGui::End();
 }
 
+namespace {
+
+/// "; 52 vertices were limited by the boundary, 3 by folds".
+std::string limits_sentence(const model::StepSummary& step) {
+  constexpr std::array<std::string_view, 8> kWords{"by pins",         "as corners",         "to ridges",
+                                                   "by the boundary", "by folds",           "by the energy",
+                                                   "by the surface",  "by having converged"};
+  std::string text;
+  for (std::size_t bit = 0; bit < step.limits.size(); ++bit) {
+    const std::size_t count = step.limits[bit];
+    if (count == 0) continue;
+    text += text.empty() ? "; " : ", ";
+    text += count_text(count);
+    if (text.find("limited") == std::string::npos)
+      text += count == 1 ? " vertex was limited" : " vertices were limited";
+    text += " " + std::string(kWords.at(bit));
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string describe_last_run(const model::Session& session) {
   if (!session.last_run) return {};
   const RunResult& run = *session.last_run;
@@ -231,16 +253,7 @@ std::string describe_last_run(const model::Session& session) {
                          : "Stopped after " + std::to_string(run.iterations) +
                                (run.iterations == 1 ? " iteration: " : " iterations: ") +
                                std::string(to_string(run.stopped));
-  if (!session.last_step) return text;
-  std::string limits;
-  for (unsigned bit = 0; bit < session.last_step->limits.size(); ++bit) {
-    const std::size_t count = session.last_step->limits[bit];
-    if (count == 0) continue;
-    limits += limits.empty() ? "" : ", ";
-    limits += count_text(count) + " " + std::string(limit_name(static_cast<Limit>(1U << bit)));
-  }
-  if (!limits.empty()) text += "  \xC2\xB7  limited: " + limits;
-  return text;
+  return session.last_step ? text + limits_sentence(*session.last_step) : text;
 }
 
 }  // namespace isorelax::ui
