@@ -10,6 +10,7 @@ std::unique_ptr<Command> make_compare_command();
 std::unique_ptr<Command> make_generate_command();
 std::unique_ptr<Command> make_benchmark_command();
 std::unique_ptr<Command> make_trace_command();
+std::unique_ptr<Command> make_advect_command();
 std::unique_ptr<Command> make_view_command();
 std::unique_ptr<Command> make_script_command();
 
@@ -23,6 +24,7 @@ std::vector<std::unique_ptr<Command>> all_commands() {
   commands.push_back(make_generate_command());
   commands.push_back(make_benchmark_command());
   commands.push_back(make_trace_command());
+  commands.push_back(make_advect_command());
   commands.push_back(make_view_command());
   commands.push_back(make_script_command());
   return commands;

@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
 #include "mesh/parallel.h"
@@ -28,18 +26,18 @@ std::array<Vec3, 3> corners_of(std::span<const Vec3> x, const Triangle& t) {
 }  // namespace
 
 CarrierRelaxation::CarrierRelaxation(std::span<const Triangle> triangles, const Topology& topology,
-                                     std::span<const Vec3> reference, std::vector<std::uint8_t> held,
+                                     std::span<const std::array<Vec3, 3>> reference,
                                      const CarrierRelaxationOptions& options, unsigned threads)
     : triangles_(triangles.begin(), triangles.end()),
       topology_(&topology),
-      reference_(reference.begin(), reference.end()),
-      held_(std::move(held)),
       options_(options),
       threads_(threads),
       system_(triangles, topology.vertex_count()),
-      reference_area_(total_area(reference, triangles)),
       middles_(triangles, topology, threads) {
-  for (const Triangle& t : triangles_) unscaled_.push_back(reference_inverse(corners_of(reference_, t)));
+  for (const std::array<Vec3, 3>& corners : reference) {
+    unscaled_.push_back(reference_inverse(corners));
+    reference_area_ += 0.5 * area_vector(corners[0], corners[1], corners[2]).norm();
+  }
   inverses_ = unscaled_;
   models_.resize(triangles_.size());
   energies_.resize(triangles_.size());
@@ -51,9 +49,11 @@ CarrierRelaxation::CarrierRelaxation(std::span<const Triangle> triangles, const 
   trial_energies_.resize(triangles_.size());
 }
 
-RelaxationReport CarrierRelaxation::relax(const FlowMap& map, std::span<MaterialPoint> points,
+RelaxationReport CarrierRelaxation::relax(const FlowMap& map, std::span<const std::uint8_t> held,
+                                          std::span<MaterialPoint> points,
                                           std::span<Vec3> positions) {
   RelaxationReport report;
+  held_.assign(held.begin(), held.end());
   scale_references(positions);
   damping_ = kFirstDamping;
   for (unsigned i = 0; i < options_.iterations; ++i)
@@ -241,7 +241,6 @@ bool CarrierRelaxation::step(const FlowMap& map, std::span<MaterialPoint> points
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     if (!system_.solve(damping_)) return false;
     const double longest = longest_move();
-    if (getenv("DBG")) printf("  nu %g longest %g\n", damping_, longest);
     if (longest > 1.5 * options_.largest_move && attempt + 1 < kMostAttempts) {
       damping_ *= std::clamp(longest / options_.largest_move, 1.5, 8.0);
       continue;
@@ -251,7 +250,6 @@ bool CarrierRelaxation::step(const FlowMap& map, std::span<MaterialPoint> points
     for (int pass = 0; pass < kMostPasses; ++pass) {
       try_moves(map, points);
       const double after = trial_energy(map, positions);
-      if (getenv("DBG")) printf("  pass %d %g -> %g\n", pass, before, after);
       if (after < before) {
         std::ranges::copy(trial_points_, points.begin());
         std::ranges::copy(trial_, positions.begin());

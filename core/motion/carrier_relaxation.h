@@ -33,12 +33,16 @@ struct RelaxationReport {
 /// the map.
 class CarrierRelaxation {
  public:
+  /// `reference`: the corners of each triangle's reference, which need not fit together. Their sizes count
+  /// against each other only: they are scaled to the mesh's area.
   CarrierRelaxation(std::span<const Triangle> triangles, const Topology& topology,
-                    std::span<const Vec3> reference, std::vector<std::uint8_t> held,
-                    const CarrierRelaxationOptions& options, unsigned threads);
+                    std::span<const std::array<Vec3, 3>> reference, const CarrierRelaxationOptions& options,
+                    unsigned threads);
 
-  /// Changes `points` and `positions` (= map of the points).
-  RelaxationReport relax(const FlowMap& map, std::span<MaterialPoint> points, std::span<Vec3> positions);
+  /// Changes `points` and `positions` (= map of the points), of vertices that are not held. What it does
+  /// depends on its arguments alone, not on calls before.
+  RelaxationReport relax(const FlowMap& map, std::span<const std::uint8_t> held, std::span<MaterialPoint> points,
+                         std::span<Vec3> positions);
 
  private:
   bool step(const FlowMap& map, std::span<MaterialPoint> points, std::span<Vec3> positions,
@@ -58,7 +62,6 @@ class CarrierRelaxation {
 
   std::vector<Triangle> triangles_;
   const Topology* topology_;
-  std::vector<Vec3> reference_;
   std::vector<std::uint8_t> held_;
   CarrierRelaxationOptions options_;
   unsigned threads_;

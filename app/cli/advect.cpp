@@ -1,0 +1,288 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/checks.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+#include "cli/motion_pictures.h"
+#include "cli/motion_series.h"
+#include "cli/table.h"
+#include "io/atomic_file.h"
+#include "io/mesh_file.h"
+
+namespace isorelax::cli {
+namespace {
+
+/// Set by the first interrupt; the second one ends the program as ever.
+std::atomic<bool> interrupted{false};
+
+void note_interrupt(int) {
+  interrupted.store(true);
+  std::signal(SIGINT, SIG_DFL);
+}
+
+constexpr const char* kAdvectNotes =
+    "A mesh is carried by a motion; its connectivity never changes. DIR gets the start, every N-th state, an index\n"
+    "for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step: angles, areas,\n"
+    "volume, folded edges, and the error where the exact surface is known.\n"
+    "\n"
+    "Fields:\n"
+    "  paper[:T]        Eq. (10) of the paper; reverses at T/2 (default T 3)\n"
+    "  enright[:T]      LeVeque's deformation, as Enright et al. use it\n"
+    "  rigid:WX,WY,WZ[@CX,CY,CZ][+VX,VY,VZ]   turning and going on\n"
+    "  shear:RATE       u = RATE y along x\n"
+    "  normal:SPEED     along the normal, by face offsetting; a number or an expression\n"
+    "  expr:U;V;W       three expressions in x, y, z, t (muParser)\n"
+    "  file:FILE        VTK legacy text, STRUCTURED_POINTS with VECTORS\n"
+    "\n"
+    "Presets:\n"
+    "  none       vertices go with the flow\n"
+    "  paper      as the paper prints it: face offsetting, then a Jacobi step of Eq. (9) in tangent planes\n"
+    "  accuracy   the carrier family, held to the finest parts of the shape\n"
+    "  balanced   the carrier family, between shape and angles\n"
+    "  angles     the carrier family, angles first: thin ends may be drawn in\n"
+    "The carrier family advects the start mesh itself (the carrier), and every vertex holds a point on it: its\n"
+    "position comes from cubic fits of the motion over the start surface. So whatever vertices do between steps,\n"
+    "no geometric error accumulates. Creases, corners and borders keep their vertices. The volume is kept by moves\n"
+    "along normals, in proportion to the height of the surface over the middles of the edges.\n"
+    "\n"
+    "Interrupted (Ctrl-C), a run writes its state and ends with status 1; --resume goes on from any written state\n"
+    "with the result of a straight run, bit for bit. A field that fails ends the run with status 3; what was\n"
+    "written stays.\n"
+    "\n"
+    "Examples:\n"
+    "  isorelax advect -o band --pictures --figure figure3.png\n"
+    "  isorelax advect ball.off -o turned --field rigid:0,0,6.28318 --until 1 --preset none\n"
+    "  isorelax advect --sphere 2000:1:0,0,0 -o swirl --field 'expr:-y;x;0.2*sin(t)' --until 2 --exact\n"
+    "  isorelax advect --resume band/state_000150.ply";
+
+class AdvectCommand : public Command {
+ public:
+  [[nodiscard]] std::string name() const override { return "advect"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Carry a surface by a motion while its vertices are redistributed";
+  }
+  [[nodiscard]] std::string notes() const override { return kAdvectNotes; }
+  void declare(CLI::App& app) override {
+    app_ = &app;
+    app.add_option("IN", input_, "Mesh to start from: OFF, OBJ, PLY or STL; none: a sphere");
+    app.add_option("-o,--output", output_, "Folder to write")->type_name("DIR");
+    app.add_option("--resume", resume_, "Go on from this state of an earlier run, in its folder, with its options")
+        ->type_name("STATE");
+    motion_.declare(app);
+    app.add_option("--save-every", save_every_, "Write every N-th state (default: about 30 in all)")
+        ->type_name("N")
+        ->check(whole_number(1));
+    app.add_flag("--vtk", vtk_, "Write states for VTK too, with an index states.pvd");
+    app.add_flag("--exact", exact_,
+                 "Advect a dense copy of the start as ground truth too; written states tell the distances");
+    app.add_flag("--pictures", pictures_, "Draw every written state, on one camera and one range of areas");
+    app.add_option("--figure", figure_, "PNG to write: six moments side by side, like the paper's Fig. 3")
+        ->type_name("PNG");
+    app.add_option("--camera", camera_, "Of pictures, see isorelax render (default fit)")->type_name("SPEC");
+    app.add_flag("--quiet", quiet_, "Print nothing but errors");
+  }
+  int run(Console& console) override {
+    if (quiet_) console.set_verbosity(Verbosity::quiet);
+    if (output_.empty() == resume_.empty()) throw UsageError("advect: give --output DIR or --resume STATE");
+    if (!figure_.empty() && std::filesystem::path(figure_).extension() != ".png")
+      throw UsageError(figure_ + ": pictures are PNG files, named .png");
+    if (!figure_.empty()) check_writable(figure_);
+    return resume_.empty() ? begin(console) : resume(console);
+  }
+
+ private:
+  static constexpr unsigned kDenseTriangles = 200000;
+
+  /// Two cuts of every triangle into four, one where that would be too many.
+  static unsigned dense_levels(const TriangleMesh& start) {
+    return 16 * start.triangles.size() <= kDenseTriangles ? 2 : 1;
+  }
+
+  int begin(Console& console) {
+    MotionSetup setup = motion_.set_up(console, input_);
+    const auto start = setup.start;
+    const unsigned levels = exact_ ? dense_levels(start) : 0;
+    MotionRun run = make_run(std::move(setup), levels);
+    if (save_every_ == 0) {
+      constexpr double kStates = 30;
+      save_every_ = static_cast<unsigned>(
+          std::max(1.0, std::round(run.setup().until / run.setup().options.step / kStates)));
+    }
+    MotionSeries series(output_);
+    Json words = Json::array();
+    for (const std::string& word : motion_.words()) words.push_back(word);
+    series.begin(start, {{"program", "isorelax " ISORELAX_VERSION},
+                         {"input", input_},
+                         {"options", std::move(words)},
+                         {"save_every", save_every_},
+                         {"vtk", vtk_},
+                         {"exact", exact_}});
+    record(series, run);
+    series.write_state(run, vtk_);
+    return go(console, series, run);
+  }
+
+  int resume(Console& console) {
+    if (!input_.empty()) throw UsageError("--resume and a mesh: the run starts from its own");
+    const std::filesystem::path state_path(resume_);
+    const std::filesystem::path folder = state_path.parent_path().empty() ? "." : state_path.parent_path();
+    const MovingState state = read_state(state_path);
+    if (!motion_.words().empty())
+      throw UsageError("--resume takes the options of run.json; " + motion_.words().front() + " cannot be changed");
+    Json asked;
+    std::vector<std::string> words;
+    std::string input;
+    try {
+      asked = Json::parse(read_bytes(folder / "run.json"));
+      words = asked.at("options").get<std::vector<std::string>>();
+      input = asked.at("input").get<std::string>();
+      save_every_ = asked.at("save_every").get<unsigned>();
+      vtk_ = asked.at("vtk").get<bool>();
+      exact_ = asked.at("exact").get<bool>();
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError((folder / "run.json").string(), "", error.what());
+    }
+    MotionSpec spec;
+    CLI::App app;
+    spec.declare(app);
+    std::ranges::reverse(words);  // CLI11 takes them from the back
+    try {
+      app.parse(words);
+    } catch (const CLI::ParseError& error) {
+      throw InputError((folder / "run.json").string(), "", std::string("options not understood: ") + error.what());
+    }
+    MotionSetup setup = spec.set_up(console, input.empty() ? "" : (folder / "start.ply").string());
+    const unsigned levels = exact_ ? dense_levels(setup.start) : 0;
+    MotionRun run = make_run(std::move(setup), levels);
+    try {
+      run.restore(state);
+    } catch (const MeshError& error) {
+      throw MeshError(resume_ + ": " + error.what());
+    }
+    MotionSeries series(folder);
+    series.resume_at(state.step);
+    console.message("resumed at step " + std::to_string(state.step) + ", time " + number_text(state.time));
+    return go(console, series, run);
+  }
+
+  MotionRun make_run(MotionSetup setup, unsigned levels) const {
+    try {
+      return {std::move(setup), levels};
+    } catch (const MeshError& error) {
+      throw MeshError((input_.empty() ? "the start" : input_) + ": " + error.what());
+    }
+  }
+
+  [[nodiscard]] bool writes(const MotionRun& run) const {
+    return run.done() || run.surface().state().step % save_every_ == 0;
+  }
+
+  void record(MotionSeries& series, const MotionRun& run) const {
+    series.add(run.measure(writes(run) ? MotionRun::Detail::exact : MotionRun::Detail::plain));
+  }
+
+  int go(Console& console, MotionSeries& series, MotionRun& run) {
+    interrupted.store(false);
+    const auto previous = std::signal(SIGINT, note_interrupt);
+    int status = kDone;
+    try {
+      Progress progress(console, "advecting");
+      while (!run.done() && !interrupted.load()) {
+        run.advance();
+        record(series, run);
+        if (writes(run)) series.write_state(run, vtk_);
+        const double time = run.surface().state().time;
+        progress.update(time / run.setup().until,
+                        "time " + number_text(time) + ", min angle " +
+                            number_text(series.log().back()["min_angle_deg"].get<double>()));
+      }
+      if (interrupted.load() && !run.done()) {
+        if (!writes(run)) series.write_state(run, vtk_);
+        console.error("cancelled at time " + number_text(run.surface().state().time) + "; go on with --resume " +
+                      series.states().back().string());
+        status = kCheckFailed;
+      }
+    } catch (...) {
+      std::signal(SIGINT, previous);
+      series.write_log();
+      throw;
+    }
+    std::signal(SIGINT, previous);
+    if (status == kDone) tell(console, series);
+    draw(console, series);
+    return status;
+  }
+
+  void tell(Console& console, const MotionSeries& series) const {
+    double volume = 0;
+    double least = 180;
+    for (const Json& entry : series.log()) {
+      volume = std::max(volume, std::abs(entry["volume_change"].get<double>()));
+      least = std::min(least, entry["min_angle_deg"].get<double>());
+    }
+    const Json& last = series.log().back();
+    console.message("time " + number_text(last["time"].get<double>()) + " after " +
+                    std::to_string(last["step"].get<std::size_t>()) + " steps: smallest angle " +
+                    number_text(last["min_angle_deg"].get<double>()) + " deg (" + number_text(least) +
+                    " on the way), mean of smallest " + number_text(last["mean_min_angle_deg"].get<double>()) +
+                    " deg, largest volume change " + number_text(100 * volume) + " %");
+    if (last.contains("error")) {
+      console.message("error against the exact surface " + number_text(last["error"]["max"].get<double>()) +
+                      " at most, " + number_text(last["error"]["mean"].get<double>()) + " mean");
+    }
+    if (last.contains("exact")) {
+      for (const auto& [key, text] : {std::pair("to_exact", "of the vertices from the dense copy"),
+                                      std::pair("from_exact", "of the dense copy from the mesh")}) {
+        console.message("distance " + std::string(text) + " " +
+                        number_text(last["exact"][key]["max"].get<double>()) + " at most, " +
+                        number_text(last["exact"][key]["rms"].get<double>()) + " RMS");
+      }
+    }
+  }
+
+  void draw(Console& console, const MotionSeries& series) const {
+    if (!pictures_ && figure_.empty()) return;
+    const std::vector<std::filesystem::path> states = series.states();
+    MotionPictures pictures(camera_, 900, 760);
+    for (const std::filesystem::path& path : states) pictures.look_at(read_mesh(path).mesh);
+    constexpr std::size_t kPanels = 6;
+    std::vector<render::Image> panels;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < kPanels; ++i) {
+      const std::size_t state = i * (states.size() - 1) / (kPanels - 1);
+      if (chosen.empty() || chosen.back() != state) chosen.push_back(state);
+    }
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const bool panel = !figure_.empty() && std::ranges::find(chosen, i) != chosen.end();
+      if (!pictures_ && !panel) continue;
+      const MovingState state = read_state(states[i]);
+      const render::Image image = pictures.draw(read_mesh(states[i]).mesh, "t = " + number_text(state.time));
+      if (pictures_) render::write_png(std::filesystem::path(states[i]).replace_extension(".png"), image);
+      if (panel) panels.push_back(image);
+    }
+    if (!figure_.empty()) {
+      render::write_png(figure_, tile(panels, 3));
+      console.message(figure_ + ": " + std::to_string(panels.size()) + " moments");
+    }
+  }
+
+  CLI::App* app_ = nullptr;
+  std::string input_, output_, resume_, figure_, camera_ = "fit";
+  MotionSpec motion_;
+  unsigned save_every_ = 0;
+  bool vtk_ = false, exact_ = false, pictures_ = false, quiet_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_advect_command() {
+  return std::make_unique<AdvectCommand>();
+}
+
+}  // namespace isorelax::cli

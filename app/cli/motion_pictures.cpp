@@ -1,0 +1,64 @@
+#include "cli/motion_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quality/triangle_metrics.h"
+#include "render/picture.h"
+
+namespace isorelax::cli {
+
+void MotionPictures::look_at(const TriangleMesh& mesh) {
+  std::vector<double> areas = face_metric(FaceMetric::area, mesh.positions, mesh.triangles);
+  if (mean_area_ == 0) {
+    for (const double area : areas) mean_area_ += area / static_cast<double>(areas.size());
+    box_ = {mesh.positions[0], mesh.positions[0]};
+  }
+  // The extremes of a few slivers would leave nothing for the others: 0.5 % at each end may lie outside.
+  std::ranges::sort(areas);
+  const std::size_t rim = areas.size() / 200;
+  low_ = std::min(low_, areas[rim] / mean_area_);
+  high_ = std::max(high_, areas[areas.size() - 1 - rim] / mean_area_);
+  for (const Vec3& x : mesh.positions) {
+    box_[0] = box_[0].cwiseMin(x);
+    box_[1] = box_[1].cwiseMax(x);
+  }
+}
+
+render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& caption) const {
+  std::vector<double> areas = face_metric(FaceMetric::area, mesh.positions, mesh.triangles);
+  for (double& area : areas) area /= mean_area_;
+  render::PictureOptions options;
+  options.size = {width_, height_};
+  options.camera = camera_;
+  options.wire = true;
+  options.caption = caption;
+  options.background = render::kWhiteBackground;
+  // The same on both sides of 1, and never without width.
+  constexpr double kLeast = 1.01;
+  const double most = std::max({high_, 1 / std::max(low_, 1e-12), kLeast});
+  options.range = render::Range{1 / most, most};
+  // Points that no triangle uses are not drawn, but the camera sees them.
+  TriangleMesh shown = mesh;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    shown.positions.emplace_back(box_[corner & 1U].x(), box_[corner >> 1 & 1U].y(), box_[corner >> 2 & 1U].z());
+  return render::render_picture(shown, render::FaceColors{render::Quantity::area, areas}, options);
+}
+
+render::Image tile(std::span<const render::Image> images, std::size_t columns) {
+  const int width = images[0].width;
+  const int height = images[0].height;
+  const std::size_t rows = (images.size() + columns - 1) / columns;
+  render::Image all(width * static_cast<int>(columns), height * static_cast<int>(rows));
+  std::ranges::fill(all.pixels, std::uint8_t{255});
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const int left = width * static_cast<int>(i % columns);
+    const int top = height * static_cast<int>(i / columns);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        std::ranges::copy(images[i].at(x, y), all.at(left + x, top + y).begin());
+  }
+  return all;
+}
+
+}  // namespace isorelax::cli

@@ -1,0 +1,103 @@
+#include "motion/expression_field.h"
+
+#include <muParser.h>
+
+#include <mutex>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace isorelax {
+
+/// A parser holds the variables it reads: every thread takes one of its own for the time of an evaluation.
+class Expression::Pool {
+ public:
+  explicit Pool(std::string text) : text_(std::move(text)) { give_back(make()); }
+
+  double evaluate(const Vec3& x, double t) {
+    std::unique_ptr<Bound> bound = take();
+    bound->values = {x[0], x[1], x[2], t};
+    double value = 0;
+    try {
+      value = bound->parser.Eval();
+    } catch (const mu::ParserError& error) {
+      throw UsageError(text_ + ": " + error.GetMsg());
+    }
+    give_back(std::move(bound));
+    return value;
+  }
+
+ private:
+  struct Bound {
+    mu::Parser parser;
+    std::array<double, 4> values{};
+  };
+
+  [[nodiscard]] std::unique_ptr<Bound> make() const {
+    auto bound = std::make_unique<Bound>();
+    try {
+      const std::array<const char*, 4> names = {"x", "y", "z", "t"};
+      for (std::size_t i = 0; i < names.size(); ++i) bound->parser.DefineVar(names[i], &bound->values[i]);
+      bound->parser.DefineConst("pi", std::numbers::pi);
+      bound->parser.DefineConst("e", std::numbers::e);
+      bound->parser.SetExpr(text_);
+      static_cast<void>(bound->parser.Eval());
+      if (bound->parser.GetNumResults() != 1) throw UsageError(text_ + ": expected one expression");
+    } catch (const mu::ParserError& error) {
+      throw UsageError(text_ + ": column " + std::to_string(error.GetPos() + 1) + ": " + error.GetMsg());
+    }
+    return bound;
+  }
+
+  std::unique_ptr<Bound> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        std::unique_ptr<Bound> bound = std::move(free_.back());
+        free_.pop_back();
+        return bound;
+      }
+    }
+    return make();
+  }
+
+  void give_back(std::unique_ptr<Bound> bound) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(bound));
+  }
+
+  std::string text_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Bound>> free_;
+};
+
+namespace {
+
+class ExpressionField final : public VelocityField {
+ public:
+  explicit ExpressionField(const std::array<std::string, 3>& texts)
+      : parts_{Expression(texts[0]), Expression(texts[1]), Expression(texts[2])} {}
+  [[nodiscard]] Vec3 at(const Vec3& x, double t) const override {
+    return {parts_[0].at(x, t), parts_[1].at(x, t), parts_[2].at(x, t)};
+  }
+
+ private:
+  std::array<Expression, 3> parts_;
+};
+
+}  // namespace
+
+Expression::Expression(const std::string& text) : pool_(std::make_unique<Pool>(text)) {}
+Expression::~Expression() = default;
+Expression::Expression(Expression&& other) noexcept = default;
+Expression& Expression::operator=(Expression&& other) noexcept = default;
+
+double Expression::at(const Vec3& x, double t) const {
+  return pool_->evaluate(x, t);
+}
+
+std::unique_ptr<VelocityField> make_expression_field(const std::array<std::string, 3>& texts) {
+  return std::make_unique<ExpressionField>(texts);
+}
+
+}  // namespace isorelax
