@@ -27,8 +27,10 @@ void note_interrupt(int) {
 }
 
 constexpr const char* kAdvectNotes =
-    "A mesh is carried by a motion; its connectivity never changes. DIR gets the start, every N-th state, an index\n"
-    "for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step: angles, areas,\n"
+    "A mesh is carried by a motion; its connectivity never changes. DIR gets the start, every N-th state, an "
+    "index\n"
+    "for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step: "
+    "angles, areas,\n"
     "volume, folded edges, and the error where the exact surface is known.\n"
     "\n"
     "Fields:\n"
@@ -46,13 +48,18 @@ constexpr const char* kAdvectNotes =
     "  accuracy   the carrier family, held to the finest parts of the shape\n"
     "  balanced   the carrier family, between shape and angles\n"
     "  angles     the carrier family, angles first: thin ends may be drawn in\n"
-    "The carrier family advects the start mesh itself (the carrier), and every vertex holds a point on it: its\n"
-    "position comes from cubic fits of the motion over the start surface. So whatever vertices do between steps,\n"
-    "no geometric error accumulates. Creases, corners and borders keep their vertices. The volume is kept by moves\n"
+    "The carrier family advects the start mesh itself (the carrier), and every vertex holds a point on it: "
+    "its\n"
+    "position comes from cubic fits of the motion over the start surface. So whatever vertices do between "
+    "steps,\n"
+    "no geometric error accumulates. Creases, corners and borders keep their vertices. The volume is kept by "
+    "moves\n"
     "along normals, in proportion to the height of the surface over the middles of the edges.\n"
     "\n"
-    "Interrupted (Ctrl-C), a run writes its state and ends with status 1; --resume goes on from any written state\n"
-    "with the result of a straight run, bit for bit. A field that fails ends the run with status 3; what was\n"
+    "Interrupted (Ctrl-C), a run writes its state and ends with status 1; --resume goes on from any written "
+    "state\n"
+    "with the result of a straight run, bit for bit. A field that fails ends the run with status 3; what "
+    "was\n"
     "written stays.\n"
     "\n"
     "Examples:\n"
@@ -72,7 +79,8 @@ class AdvectCommand : public Command {
     app_ = &app;
     app.add_option("IN", input_, "Mesh to start from: OFF, OBJ, PLY or STL; none: a sphere");
     app.add_option("-o,--output", output_, "Folder to write")->type_name("DIR");
-    app.add_option("--resume", resume_, "Go on from this state of an earlier run, in its folder, with its options")
+    app.add_option("--resume", resume_,
+                   "Go on from this state of an earlier run, in its folder, with its options")
         ->type_name("STATE");
     motion_.declare(app);
     app.add_option("--save-every", save_every_, "Write every N-th state (default: about 30 in all)")
@@ -134,7 +142,8 @@ class AdvectCommand : public Command {
     const std::filesystem::path folder = state_path.parent_path().empty() ? "." : state_path.parent_path();
     const MovingState state = read_state(state_path);
     if (!motion_.words().empty())
-      throw UsageError("--resume takes the options of run.json; " + motion_.words().front() + " cannot be changed");
+      throw UsageError("--resume takes the options of run.json; " + motion_.words().front() +
+                       " cannot be changed");
     Json asked;
     std::vector<std::string> words;
     std::string input;
@@ -155,7 +164,8 @@ class AdvectCommand : public Command {
     try {
       app.parse(words);
     } catch (const CLI::ParseError& error) {
-      throw InputError((folder / "run.json").string(), "", std::string("options not understood: ") + error.what());
+      throw InputError((folder / "run.json").string(), "",
+                       std::string("options not understood: ") + error.what());
     }
     MotionSetup setup = spec.set_up(console, input.empty() ? "" : (folder / "start.ply").string());
     const unsigned levels = exact_ ? dense_levels(setup.start) : 0;
@@ -204,8 +214,8 @@ class AdvectCommand : public Command {
       }
       if (interrupted.load() && !run.done()) {
         if (!writes(run)) series.write_state(run, vtk_);
-        console.error("cancelled at time " + number_text(run.surface().state().time) + "; go on with --resume " +
-                      series.states().back().string());
+        console.error("cancelled at time " + number_text(run.surface().state().time) +
+                      "; go on with --resume " + series.states().back().string());
         status = kCheckFailed;
       }
     } catch (...) {
@@ -230,8 +240,9 @@ class AdvectCommand : public Command {
     console.message("time " + number_text(last["time"].get<double>()) + " after " +
                     std::to_string(last["step"].get<std::size_t>()) + " steps: smallest angle " +
                     number_text(last["min_angle_deg"].get<double>()) + " deg (" + number_text(least) +
-                    " on the way), mean of smallest " + number_text(last["mean_min_angle_deg"].get<double>()) +
-                    " deg, largest volume change " + number_text(100 * volume) + " %");
+                    " on the way), mean of smallest " +
+                    number_text(last["mean_min_angle_deg"].get<double>()) + " deg, largest volume change " +
+                    number_text(100 * volume) + " %");
     if (last.contains("error")) {
       console.message("error against the exact surface " + number_text(last["error"]["max"].get<double>()) +
                       " at most, " + number_text(last["error"]["mean"].get<double>()) + " mean");

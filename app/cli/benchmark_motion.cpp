@@ -12,16 +12,21 @@ namespace isorelax::cli {
 namespace {
 
 constexpr std::array<std::string_view, 6> kTried = {
-    "A cap on every vertex' own move, and halving single vertices where a triangle gets worse: neighbours lose step "
-    "with each other and the mesh locks (mean angle 27 at mid-time, triangles starve). One damping for all, raised "
+    "A cap on every vertex' own move, and halving single vertices where a triangle gets worse: neighbours "
+    "lose step "
+    "with each other and the mesh locks (mean angle 27 at mid-time, triangles starve). One damping for all, "
+    "raised "
     "until the longest move is an edge, does not.",
     "Damping of moves over ridges alone: it slows the loss of thin ends and does not stop it.",
-    "No weight on the height of the surface over edges: mean angle 42 at mid-time, but the thin end is drawn in by "
+    "No weight on the height of the surface over edges: mean angle 42 at mid-time, but the thin end is drawn "
+    "in by "
     "more than the sphere's radius (the distance from the exact surface in the table tells).",
-    "Heavier area terms (p = 1 or 2 in det^p + det^-p) instead of p = 3 with a small weight: they cost angles "
+    "Heavier area terms (p = 1 or 2 in det^p + det^-p) instead of p = 3 with a small weight: they cost "
+    "angles "
     "everywhere (mean 16 to 24), not only where triangles are several times too large.",
     "Volume left free: vertices exactly on the surface lose 0.5 to 5 % of the volume to chords at mid-time.",
-    "Pure advection's error of 4e-5 % is that of the time integration alone; positions from cubic fits over the "
+    "Pure advection's error of 4e-5 % is that of the time integration alone; positions from cubic fits over "
+    "the "
     "start mesh cannot reach it.",
 };
 
@@ -33,22 +38,24 @@ void append_line(std::string& text, const char* format, auto... values) {
 
 void append_rows(std::string& text, const std::vector<MotionRow>& rows) {
   text +=
-      "preset    vertices |  at T/2: min  mean  <15 %  ratio  dV %    off %   folds |  at T: min  mean  <15 %  ratio  "
+      "preset    vertices |  at T/2: min  mean  <15 %  ratio  dV %    off %   folds |  at T: min  mean  <15 "
+      "%  ratio  "
       "folds  error %      | worst dV %  s/step\n";
   for (const MotionRow& row : rows) {
     const MotionMeasure& m = row.middle.measure;
     const MotionMeasure& e = row.end.measure;
     const double off =
-        row.middle.exact ? std::max(row.middle.exact->first.max, row.middle.exact->second.max) / kMotionRadius : 0;
-    append_line(text, "%-9s %8zu | %11.2f %5.1f %6.1f %6.0f %+7.3f %7.2f %6zu |", row.preset.c_str(), row.vertices,
-                m.min_angle_deg, m.mean_angle_deg, 100 * m.below_15_deg, m.area_max_over_min,
+        row.middle.exact ? std::max(row.middle.exact->first.max, row.middle.exact->second.max) / kMotionRadius
+                         : 0;
+    append_line(text, "%-9s %8zu | %11.2f %5.1f %6.1f %6.0f %+7.3f %7.2f %6zu |", row.preset.c_str(),
+                row.vertices, m.min_angle_deg, m.mean_angle_deg, 100 * m.below_15_deg, m.area_max_over_min,
                 100 * row.middle.volume_change, 100 * off, m.folded_edges);
     if (!row.failure.empty()) {
       text += " ended early: " + row.failure + "\n";
       continue;
     }
-    append_line(text, " %9.2f %5.1f %6.1f %6.0f %6zu  %.2g / %.2g | %10.3f %7.3f\n", e.min_angle_deg, e.mean_angle_deg,
-                100 * e.below_15_deg, e.area_max_over_min, e.folded_edges,
+    append_line(text, " %9.2f %5.1f %6.1f %6.0f %6zu  %.2g / %.2g | %10.3f %7.3f\n", e.min_angle_deg,
+                e.mean_angle_deg, 100 * e.below_15_deg, e.area_max_over_min, e.folded_edges,
                 row.end.error ? 100 * row.end.error->max / kMotionRadius : NAN,
                 row.end.error ? 100 * row.end.error->mean / kMotionRadius : NAN, 100 * row.worst_volume,
                 row.seconds_a_step);
@@ -107,11 +114,12 @@ Json row_json(const MotionRow& row) {
 }  // namespace
 
 std::string motion_text(const MotionTable& table) {
-  std::string text = "Eq. (10) on a sphere of radius 0.15, RK4 steps of " + number_text(table.options.step) +
-                     ". Angles in degrees; off: largest distance between the mesh and a dense\nexact copy, either "
-                     "way, and error: of the vertices from the sphere, max / mean, both of the radius. Folds: edges "
-                     "that turn by over 120 deg\n(at T/2 the exact surface has a knife edge). none: pure advection; "
-                     "paper: the recipe as printed.\n\nT = 3\n";
+  std::string text =
+      "Eq. (10) on a sphere of radius 0.15, RK4 steps of " + number_text(table.options.step) +
+      ". Angles in degrees; off: largest distance between the mesh and a dense\nexact copy, either "
+      "way, and error: of the vertices from the sphere, max / mean, both of the radius. Folds: edges "
+      "that turn by over 120 deg\n(at T/2 the exact surface has a knife edge). none: pure advection; "
+      "paper: the recipe as printed.\n\nT = 3\n";
   append_rows(text, table.rows);
   text += "\nT = 0.75, a quarter of the deformation\n";
   append_rows(text, table.quarter);
@@ -123,9 +131,9 @@ std::string motion_text(const MotionTable& table) {
       for (std::size_t i = 0; i < order.values.size(); ++i) {
         append_line(text, "  %.3g %%", 100 * order.values[i]);
         if (i > 0)
-          append_line(text, " (order %.1f)", observed_order(order.values[i - 1], order.values[i],
-                                                            table.convergence[i - 1].vertices,
-                                                            table.convergence[i].vertices));
+          append_line(text, " (order %.1f)",
+                      observed_order(order.values[i - 1], order.values[i], table.convergence[i - 1].vertices,
+                                     table.convergence[i].vertices));
       }
       text += "\n";
     }
@@ -174,7 +182,8 @@ render::Image motion_picture(const MotionTable& table) {
         panels.emplace_back(720, 600);
         continue;
       }
-      panels.push_back(pictures.draw(row.meshes[i], row.preset + ", t = " + number_text(kShares[i] * row.period)));
+      panels.push_back(
+          pictures.draw(row.meshes[i], row.preset + ", t = " + number_text(kShares[i] * row.period)));
     }
   }
   return tile(panels, 3);

@@ -77,8 +77,9 @@ TriangleMesh make_sphere(const SphereStart& sphere) {
 void MotionSpec::declare(CLI::App& app) {
   app_ = &app;
   const std::vector<CLI::Option*> others = app.get_options();
-  app.add_option("--sphere", sphere_,
-                 "Start from a sphere, N[:RADIUS[:X,Y,Z]] (default 5832:0.15:0.5,0.75,0.5 where no mesh is given)")
+  app.add_option(
+         "--sphere", sphere_,
+         "Start from a sphere, N[:RADIUS[:X,Y,Z]] (default 5832:0.15:0.5,0.75,0.5 where no mesh is given)")
       ->type_name("SPEC");
   app.add_option("--field", field_, "What moves the surface, see below (default paper)")->type_name("FIELD");
   app.add_option("--until", until_, "Time at which to end (default: the field's period, else 1)")
@@ -92,15 +93,17 @@ void MotionSpec::declare(CLI::App& app) {
                  "bounding-box diagonal")
       ->type_name("E")
       ->check(number_between(std::numeric_limits<double>::min(), 1));
-  app.add_option("--method", method_,
-                 "rk4: every vertex goes with the flow; face-offsetting: faces do, vertices are where they meet "
-                 "(default: the preset's; normal motion always offsets faces)")
+  app.add_option(
+         "--method", method_,
+         "rk4: every vertex goes with the flow; face-offsetting: faces do, vertices are where they meet "
+         "(default: the preset's; normal motion always offsets faces)")
       ->type_name("M");
   app.add_option("--preset", preset_, "none, paper, accuracy, balanced (default) or angles, see below")
       ->type_name("P");
   app.add_option("--redistribute", redistribute_, "none, tangent or carrier (default: the preset's)")
       ->type_name("HOW");
-  app.add_option("--solver", solver_, "Of tangent moves: jacobi (default), newton, lbfgs or auto")->type_name("S");
+  app.add_option("--solver", solver_, "Of tangent moves: jacobi (default), newton, lbfgs or auto")
+      ->type_name("S");
   app.add_option("--iterations", iterations_, "Moves after each step (default: the preset's)")
       ->type_name("N")
       ->check(whole_number(1));
@@ -108,7 +111,8 @@ void MotionSpec::declare(CLI::App& app) {
       ->type_name("MU")
       ->check(number_between(0, 1));
   app.add_option("--reference", reference_,
-                 "What triangles ought to look like: initial (default), equilateral, equilateral:EDGE, or a mesh FILE "
+                 "What triangles ought to look like: initial (default), equilateral, equilateral:EDGE, or a "
+                 "mesh FILE "
                  "with the same vertices")
       ->type_name("R");
   app.add_option("--every", every_, "Redistribute after every K-th step only (default 1)")
@@ -118,9 +122,10 @@ void MotionSpec::declare(CLI::App& app) {
                  "Redistribute only about triangles with an angle under this many degrees")
       ->type_name("DEG")
       ->check(number_between(0, 60));
-  app.add_option("--volume", volume_,
-                 "Of carrier moves: keep (default) gives the mesh the volume that the motion leaves the start's, by "
-                 "moves along normals; free leaves vertices on the surface")
+  app.add_option(
+         "--volume", volume_,
+         "Of carrier moves: keep (default) gives the mesh the volume that the motion leaves the start's, by "
+         "moves along normals; free leaves vertices on the surface")
       ->type_name("RULE");
   app.add_option("--threads", threads_, "Threads; 0: all (default). The result does not depend on it")
       ->type_name("N")
@@ -173,7 +178,8 @@ MovingSurfaceOptions MotionSpec::parse_options(Console& console) const {
   options.reference = parse_reference(console, reference_);
   options.every = every_;
   options.only_below_deg = only_below_;
-  if (!volume_.empty()) options.balance_volume = choose<bool>("--volume", volume_, {{"keep", true}, {"free", false}});
+  if (!volume_.empty())
+    options.balance_volume = choose<bool>("--volume", volume_, {{"keep", true}, {"free", false}});
   options.threads = threads_;
   return options;
 }

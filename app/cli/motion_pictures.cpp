@@ -41,7 +41,8 @@ render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& 
   // Points that no triangle uses are not drawn, but the camera sees them.
   TriangleMesh shown = mesh;
   for (unsigned corner = 0; corner < 8; ++corner)
-    shown.positions.emplace_back(box_[corner & 1U].x(), box_[corner >> 1 & 1U].y(), box_[corner >> 2 & 1U].z());
+    shown.positions.emplace_back(box_[corner & 1U].x(), box_[corner >> 1 & 1U].y(),
+                                 box_[corner >> 2 & 1U].z());
   return render::render_picture(shown, render::FaceColors{render::Quantity::area, areas}, options);
 }
 

@@ -10,7 +10,6 @@
 
 namespace isorelax::cli {
 
-
 /// Pictures of a moving surface that can be laid side by side: one camera that sees all of them, triangles
 /// coloured by area, relative to the mean area of the first mesh, on one range.
 class MotionPictures {

@@ -23,8 +23,9 @@ MotionRun::MotionRun(MotionSetup setup, unsigned dense_levels)
     if (!setup_.motion.field) throw UsageError("--exact is for velocity fields");
     dense_.emplace(setup_.start, dense_levels, placement_of(setup_), setup_.options.threads);
   }
-  const Deviation self = measure_deviation(setup_.start.positions, setup_.start.positions, setup_.start.triangles,
-                                           surface_.topology(), setup_.options.threads);
+  const Deviation self =
+      measure_deviation(setup_.start.positions, setup_.start.positions, setup_.start.triangles,
+                        surface_.topology(), setup_.options.threads);
   encloses_ = self.has_volume;
   start_volume_ = enclosed_volume(setup_.start.positions, setup_.start.triangles, setup_.options.threads);
 }
@@ -79,11 +80,13 @@ MotionEntry MotionRun::measure(Detail detail) const {
   const MovingState& state = surface_.state();
   entry.step = state.step;
   entry.time = state.time;
-  entry.measure = measure_motion(state.positions, setup_.start.triangles, surface_.topology(), setup_.options.threads);
+  entry.measure =
+      measure_motion(state.positions, setup_.start.triangles, surface_.topology(), setup_.options.threads);
   if (encloses_) entry.volume_change = (entry.measure.volume - start_volume_) / start_volume_;
   entry.report = surface_.report();
   entry.error = known_error();
-  if (dense_ && detail == Detail::exact) entry.exact = dense_->distances(state.positions, setup_.start.triangles);
+  if (dense_ && detail == Detail::exact)
+    entry.exact = dense_->distances(state.positions, setup_.start.triangles);
   entry.seconds = seconds_;
   return entry;
 }

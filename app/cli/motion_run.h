@@ -15,9 +15,10 @@ struct MotionEntry {
   MotionMeasure measure;
   double volume_change = 0;  ///< (now - start) / start; 0 for a start that encloses none
   MovingReport report;
-  std::optional<Distances> error;  ///< of the vertices from the exact surface, where that is known, length units
+  std::optional<Distances>
+      error;  ///< of the vertices from the exact surface, where that is known, length units
   std::optional<std::pair<Distances, Distances>> exact;  ///< from the dense copy, and of it
-  double seconds = 0;  ///< of the step, without what is measured
+  double seconds = 0;                                    ///< of the step, without what is measured
 };
 
 /// Runs a set-up step by step and measures.

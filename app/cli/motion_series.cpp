@@ -36,7 +36,8 @@ TriangleMesh state_mesh(const MotionRun& run) {
     weights[k] = {"material_weight_" + std::to_string(k), ScalarType::float64, 1, {}};
   for (const MaterialPoint& point : state.points) {
     triangle.values.push_back(point.triangle);
-    for (std::size_t k = 0; k < 3; ++k) weights[k].values.push_back(point.weights[static_cast<Eigen::Index>(k)]);
+    for (std::size_t k = 0; k < 3; ++k)
+      weights[k].values.push_back(point.weights[static_cast<Eigen::Index>(k)]);
   }
   mesh.attributes.vertex.push_back(std::move(triangle));
   for (Attribute& weight : weights) mesh.attributes.vertex.push_back(std::move(weight));
@@ -45,7 +46,8 @@ TriangleMesh state_mesh(const MotionRun& run) {
 
 std::string vtp_text(const TriangleMesh& mesh) {
   std::string out =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n";
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<PolyData>\n";
   out += "<Piece NumberOfPoints=\"" + std::to_string(mesh.positions.size()) + "\" NumberOfPolys=\"" +
          std::to_string(mesh.triangles.size()) + "\">\n<Points>\n";
   out += "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
@@ -55,7 +57,8 @@ std::string vtp_text(const TriangleMesh& mesh) {
       out += k < 2 ? ' ' : '\n';
     }
   }
-  out += "</DataArray>\n</Points>\n<Polys>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  out +=
+      "</DataArray>\n</Points>\n<Polys>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
   for (const Triangle& t : mesh.triangles)
     out += std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
   out += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
@@ -163,7 +166,8 @@ void MotionSeries::resume_at(std::size_t step) {
     for (const Json& file : index.at("files")) {
       const std::string name = file.at("name").get<std::string>();
       const std::string stem = name.substr(0, name.find('.'));
-      const auto number = parse_number(std::string_view(stem).substr(std::min(stem.size(), stem.find('_') + 1)));
+      const auto number =
+          parse_number(std::string_view(stem).substr(std::min(stem.size(), stem.find('_') + 1)));
       if (!number) throw InputError((folder_ / "states.ply.series").string(), "", name + " names no step");
       if (*number > static_cast<double>(step)) break;
       items_.push_back({stem, static_cast<std::size_t>(*number), file.at("time").get<double>()});
@@ -185,7 +189,8 @@ MovingState read_state(const std::filesystem::path& path) {
     const auto step = parse_number(word[1]);
     const auto time = parse_number(word[3]);
     const auto next = parse_number(word[5]);
-    if (!step || !time || !next || !(*step >= 0)) throw InputError(path.string(), "", "its state comment is damaged");
+    if (!step || !time || !next || !(*step >= 0))
+      throw InputError(path.string(), "", "its state comment is damaged");
     state.step = static_cast<std::size_t>(*step);
     state.time = *time;
     state.next_step = *next;

@@ -9,7 +9,8 @@ namespace {
 constexpr double kFullPeriod = 3;
 constexpr double kQuarterPeriod = 0.75;
 
-MotionSetup setup_for(std::string_view preset, std::size_t vertices, double period, const MotionTableOptions& options) {
+MotionSetup setup_for(std::string_view preset, std::size_t vertices, double period,
+                      const MotionTableOptions& options) {
   MotionSetup setup;
   setup.sphere = SphereStart{};
   setup.sphere->vertices = vertices;
@@ -25,8 +26,8 @@ MotionSetup setup_for(std::string_view preset, std::size_t vertices, double peri
   return setup;
 }
 
-MotionRow run_row(std::string_view preset, std::size_t vertices, double period, const MotionTableOptions& options,
-                  const std::function<void(double)>& progress) {
+MotionRow run_row(std::string_view preset, std::size_t vertices, double period,
+                  const MotionTableOptions& options, const std::function<void(double)>& progress) {
   constexpr std::size_t kFewVertices = 12000;
   MotionRow row;
   row.preset = preset;
@@ -40,7 +41,8 @@ MotionRow run_row(std::string_view preset, std::size_t vertices, double period, 
       run.advance();
       const double share = run.surface().state().time / period;
       const bool half = row.middle.step == 0 && share > 0.5 - 1e-9;
-      const MotionEntry entry = run.measure(half || run.done() ? MotionRun::Detail::exact : MotionRun::Detail::plain);
+      const MotionEntry entry =
+          run.measure(half || run.done() ? MotionRun::Detail::exact : MotionRun::Detail::plain);
       row.worst_volume = std::max(row.worst_volume, std::abs(entry.volume_change));
       row.least_angle_deg = std::min(row.least_angle_deg, entry.measure.min_angle_deg);
       seconds += entry.seconds;
@@ -57,11 +59,12 @@ MotionRow run_row(std::string_view preset, std::size_t vertices, double period, 
   return row;
 }
 
-/// A row of figures that prototypes reached before (T = 3, 11660 triangles); shares as far as they were noted.
+/// A row of figures that prototypes reached before (T = 3, 11660 triangles); shares as far as they were
+/// noted.
 struct KnownRow {
   const char* name;
   double mean_angle_deg;
-  double below_15;  ///< not noted: 1
+  double below_15;               ///< not noted: 1
   double error_max, error_mean;  ///< of the radius
   double volume;
 };
@@ -73,7 +76,8 @@ constexpr std::array<KnownRow, 5> kKnownRows = {{
     {"carrier", 27, 1, 0.00015, 0.00006, 0.024},
 }};
 
-std::string format_text(const char* format, double a, double b = 0, double c = 0, double d = 0, double e = 0) {
+std::string format_text(const char* format, double a, double b = 0, double c = 0, double d = 0,
+                        double e = 0) {
   std::array<char, 256> line{};
   std::snprintf(line.data(), line.size(), format, a, b, c, d, e);
   return line.data();
@@ -88,8 +92,9 @@ double error_mean(const MotionRow& row) {
 
 bool beats(const MotionRow& row, const KnownRow& known) {
   const MotionMeasure& m = row.middle.measure;
-  return row.failure.empty() && m.mean_angle_deg >= known.mean_angle_deg && m.below_15_deg <= known.below_15 &&
-         error_max(row) <= known.error_max && error_mean(row) <= known.error_mean && row.worst_volume <= known.volume;
+  return row.failure.empty() && m.mean_angle_deg >= known.mean_angle_deg &&
+         m.below_15_deg <= known.below_15 && error_max(row) <= known.error_max &&
+         error_mean(row) <= known.error_mean && row.worst_volume <= known.volume;
 }
 
 MotionGoal beat_goal(const MotionTable& table, const KnownRow& known) {
@@ -119,8 +124,8 @@ MotionGoal exact_goal(const MotionTable& table) {
       continue;
     goal.met = true;
     goal.found += (goal.found.empty() ? "" : "; ") + row.preset +
-                  format_text(" %.1f, %.2g / %.2g %%, %.3f %%", row.middle.measure.mean_angle_deg, 100 * error_max(row),
-                              100 * error_mean(row), 100 * row.worst_volume);
+                  format_text(" %.1f, %.2g / %.2g %%, %.3f %%", row.middle.measure.mean_angle_deg,
+                              100 * error_max(row), 100 * error_mean(row), 100 * row.worst_volume);
   }
   if (!goal.met) goal.found = "no preset";
   return goal;
@@ -131,7 +136,8 @@ MotionGoal fold_goal(const MotionTable& table) {
   for (const MotionRow& row : table.rows) {
     if (row.preset == "none" || row.preset == "paper") continue;
     goal.met = goal.met && row.failure.empty() && row.end.measure.folded_edges == 0;
-    goal.found += (goal.found.empty() ? "" : ", ") + row.preset + " " + std::to_string(row.end.measure.folded_edges);
+    goal.found +=
+        (goal.found.empty() ? "" : ", ") + row.preset + " " + std::to_string(row.end.measure.folded_edges);
   }
   return goal;
 }
@@ -141,9 +147,9 @@ MotionGoal quarter_goal(const MotionTable& table) {
   goal.wanted = "a quarter of the deformation: min angle 15, mean 38, area ratio 20, |dV| 0.2 %, error 0.5 %";
   for (const MotionRow& row : table.quarter) {
     const MotionMeasure& m = row.middle.measure;
-    const std::string figures = row.preset + format_text(" %.1f, %.1f, %.1f, %.3f %%, %.2g %%", m.min_angle_deg,
-                                                         m.mean_angle_deg, m.area_max_over_min,
-                                                         100 * row.worst_volume, 100 * error_max(row));
+    const std::string figures =
+        row.preset + format_text(" %.1f, %.1f, %.1f, %.3f %%, %.2g %%", m.min_angle_deg, m.mean_angle_deg,
+                                 m.area_max_over_min, 100 * row.worst_volume, 100 * error_max(row));
     if (!row.failure.empty() || m.min_angle_deg < 15 || m.mean_angle_deg < 38 || m.area_max_over_min > 20 ||
         row.worst_volume > 0.002 || error_max(row) > 0.005)
       continue;
@@ -166,7 +172,8 @@ MotionTable compute_motion_table(const MotionTableOptions& options,
     total += kPresets.size() * period * static_cast<double>(options.vertices);
   for (const std::size_t size : options.convergence) total += kQuarterPeriod * static_cast<double>(size);
   double done = 0;
-  const auto add = [&](std::vector<MotionRow>& rows, const char* preset, std::size_t vertices, double period) {
+  const auto add = [&](std::vector<MotionRow>& rows, const char* preset, std::size_t vertices,
+                       double period) {
     const double work = period * static_cast<double>(vertices);
     const std::string name = std::string(preset) + ", " + std::to_string(vertices) + " vertices";
     rows.push_back(run_row(preset, vertices, period, options,

@@ -22,13 +22,13 @@ struct MotionRow {
   std::string preset;
   double period = 3;
   std::size_t vertices = 0;
-  MotionEntry middle;  ///< at half the period, where the deformation is largest, with the dense copy
-  MotionEntry end;     ///< at the period: back on the sphere
+  MotionEntry middle;       ///< at half the period, where the deformation is largest, with the dense copy
+  MotionEntry end;          ///< at the period: back on the sphere
   double worst_volume = 0;  ///< largest |change| on the way
   double least_angle_deg = 180;  ///< smallest angle on the way
   double seconds_a_step = 0;
   std::array<TriangleMesh, 3> meshes;  ///< at a quarter, a half and the whole of the period
-  std::string failure;  ///< why it ended early; then `end` is where it did
+  std::string failure;                 ///< why it ended early; then `end` is where it did
 };
 
 struct MotionTable {

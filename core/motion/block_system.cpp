@@ -69,7 +69,8 @@ void BlockSystem::add_diagonal(Index vertex, const Eigen::Matrix2d& matrix) {
 void BlockSystem::hold(Index vertex) {
   // So stiff that it does not move: the pattern stays.
   constexpr double kStiff = 1e12;
-  const double scale = std::max({matrix_.valuePtr()[diagonal_[vertex][0]], matrix_.valuePtr()[diagonal_[vertex][2]], 1.0});
+  const double scale =
+      std::max({matrix_.valuePtr()[diagonal_[vertex][0]], matrix_.valuePtr()[diagonal_[vertex][2]], 1.0});
   add_diagonal(vertex, kStiff * scale * Eigen::Matrix2d::Identity());
   right_.segment<2>(2 * vertex).setZero();
 }

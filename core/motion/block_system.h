@@ -9,8 +9,8 @@
 
 namespace isorelax {
 
-/// A symmetric sparse system with two unknowns at every vertex and a 2 x 2 block for every edge of a mesh. Its
-/// pattern is found once; filling and factoring it again takes no new memory.
+/// A symmetric sparse system with two unknowns at every vertex and a 2 x 2 block for every edge of a mesh.
+/// Its pattern is found once; filling and factoring it again takes no new memory.
 class BlockSystem {
  public:
   BlockSystem(std::span<const Triangle> triangles, Index vertex_count);

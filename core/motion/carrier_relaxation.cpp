@@ -39,6 +39,7 @@ CarrierRelaxation::CarrierRelaxation(std::span<const Triangle> triangles, const 
     reference_area_ += 0.5 * area_vector(corners[0], corners[1], corners[2]).norm();
   }
   inverses_ = unscaled_;
+  allowed_.assign(middles_.edges().size(), 0);
   models_.resize(triangles_.size());
   energies_.resize(triangles_.size());
   share_.resize(topology.vertex_count());
@@ -49,9 +50,15 @@ CarrierRelaxation::CarrierRelaxation(std::span<const Triangle> triangles, const 
   trial_energies_.resize(triangles_.size());
 }
 
+void CarrierRelaxation::allow_heights(const FlowMap& map, std::span<const MaterialPoint> points,
+                                      std::span<const Vec3> positions) {
+  middles_.measure(map, points, positions);
+  for (std::size_t e = 0; e < allowed_.size(); ++e) allowed_[e] = middles_.heights()[e].norm();
+  start_area_ = total_area(positions, triangles_);
+}
+
 RelaxationReport CarrierRelaxation::relax(const FlowMap& map, std::span<const std::uint8_t> held,
-                                          std::span<MaterialPoint> points,
-                                          std::span<Vec3> positions) {
+                                          std::span<MaterialPoint> points, std::span<Vec3> positions) {
   RelaxationReport report;
   held_.assign(held.begin(), held.end());
   scale_references(positions);
@@ -62,9 +69,11 @@ RelaxationReport CarrierRelaxation::relax(const FlowMap& map, std::span<const st
 }
 
 void CarrierRelaxation::scale_references(std::span<const Vec3> positions) {
-  const double scale = std::sqrt(reference_area_ / total_area(positions, triangles_));
+  const double area = total_area(positions, triangles_);
+  const double scale = std::sqrt(reference_area_ / area);
+  growth_ = start_area_ > 0 ? std::sqrt(area / start_area_) : 1;
   // Of an equilateral triangle of the mean area.
-  const double squared_edge = 4 / std::sqrt(3.0) * total_area(positions, triangles_) / static_cast<double>(triangles_.size());
+  const double squared_edge = 4 / std::sqrt(3.0) * area / static_cast<double>(triangles_.size());
   height_scale_ = options_.height_weight / squared_edge;
   for (std::size_t t = 0; t < unscaled_.size(); ++t) inverses_[t] = scale * unscaled_[t];
 }
@@ -96,8 +105,9 @@ void CarrierRelaxation::assemble(std::span<const Vec3> positions) {
   parallel_for_blocks(triangles_.size(), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& v = triangles_[t];
-      models_[t] = element_model(corners_of(positions, v), {tangents_[v[0]], tangents_[v[1]], tangents_[v[2]]},
-                                 inverses_[t], options_.weights);
+      models_[t] =
+          element_model(corners_of(positions, v), {tangents_[v[0]], tangents_[v[1]], tangents_[v[2]]},
+                        inverses_[t], options_.weights);
       energies_[t] = models_[t].energy;
     }
   });
@@ -109,6 +119,10 @@ void CarrierRelaxation::assemble(std::span<const Vec3> positions) {
 void CarrierRelaxation::add_heights(const FlowMap& map) {
   using Mat32 = Eigen::Matrix<double, 3, 2>;
   for (std::size_t e = 0; e < middles_.edges().size(); ++e) {
+    const Vec3& height = middles_.heights()[e];
+    const double length = height.norm();
+    const double excess = length - growth_ * allowed_[e];
+    if (!(excess > 0)) continue;
     const MiddledEdge& edge = middles_.edges()[e];
     const auto& frame = map.surface().frame(middles_.middle(e).triangle);
     Mat32 material;
@@ -118,14 +132,20 @@ void CarrierRelaxation::add_heights(const FlowMap& map) {
     const unsigned k = edge.corner % 3;
     slope.middleCols<2>(2 * next(k)) = onward * material_moves_[edge.a] - 0.5 * tangents_[edge.a];
     slope.middleCols<2>(2 * previous(k)) = onward * material_moves_[edge.b] - 0.5 * tangents_[edge.b];
-    system_.add(edge.corner / 3, 2 * height_scale_ * slope.transpose() * slope,
-                2 * height_scale_ * slope.transpose() * middles_.heights()[e]);
+    const Vec3 axis = height / length;
+    const double across = excess / length;
+    const Mat3 curvature = across * Mat3::Identity() + (1 - across) * axis * axis.transpose();
+    system_.add(edge.corner / 3, 2 * height_scale_ * slope.transpose() * curvature * slope,
+                2 * height_scale_ * excess * slope.transpose() * axis);
   }
 }
 
 double CarrierRelaxation::height_energy() const {
   double sum = 0;
-  for (const Vec3& height : middles_.heights()) sum += height.squaredNorm();
+  for (std::size_t e = 0; e < allowed_.size(); ++e) {
+    const double excess = middles_.heights()[e].norm() - growth_ * allowed_[e];
+    if (excess > 0) sum += excess * excess;
+  }
   return height_scale_ * sum;
 }
 
@@ -149,7 +169,8 @@ void CarrierRelaxation::add_damping(std::span<const Vec3> positions) {
         const double ratio = eigen.values[0] > 0 ? std::max(0.0, eigen.values[k]) / eigen.values[0] : 0;
         const double share = ratio / options_.ridge_ratio;
         const Eigen::Vector2d axis = tangents_[v].transpose() * eigen.vectors.col(k);
-        damping += options_.ridge_damping * weight * std::min(kMostDamping, share * share) * axis * axis.transpose();
+        damping +=
+            options_.ridge_damping * weight * std::min(kMostDamping, share * share) * axis * axis.transpose();
       }
       system_.add_diagonal(v, damping);
       system_.set_shift(v, weight);
@@ -165,7 +186,9 @@ void CarrierRelaxation::try_moves(const FlowMap& map, std::span<const MaterialPo
   parallel_for_blocks(points.size(), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto v = static_cast<Index>(i);
-      trial_points_[v] = held_[v] != 0 ? points[v] : map.surface().walk(points[v], share_[v] * (to_material_[v] * system_.solution(v)));
+      trial_points_[v] =
+          held_[v] != 0 ? points[v]
+                        : map.surface().walk(points[v], share_[v] * (to_material_[v] * system_.solution(v)));
       trial_[v] = map.position(trial_points_[v]);
     }
   });

@@ -96,7 +96,8 @@ Distances distances_to(const ClosestPointIndex& index, std::span<const Vec3> poi
 
 }  // namespace
 
-DenseCopy::DenseCopy(const TriangleMesh& start, unsigned levels, const SurfacePlacement& place, unsigned threads)
+DenseCopy::DenseCopy(const TriangleMesh& start, unsigned levels, const SurfacePlacement& place,
+                     unsigned threads)
     : threads_(threads) {
   mesh_.positions = start.positions;
   mesh_.triangles = start.triangles;

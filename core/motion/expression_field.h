@@ -8,8 +8,8 @@
 
 namespace isorelax {
 
-/// A number given by an expression in x, y, z and t (muParser: + - * / ^, comparisons, ?:, sin, cos, tan, exp,
-/// ln, sqrt, abs, min, max ..., the constants pi and e).
+/// A number given by an expression in x, y, z and t (muParser: + - * / ^, comparisons, ?:, sin, cos, tan,
+/// exp, ln, sqrt, abs, min, max ..., the constants pi and e).
 class Expression {
  public:
   /// Throws UsageError: the text, the column and what is wrong there.

@@ -8,6 +8,30 @@
 #include "smoothing/fold_control.h"
 
 namespace isorelax {
+namespace {
+
+/// Share of the way from one triangle to another that keeps it safely on its side, as fold_free_share tells;
+/// and safely away from having no area on the way, which turning through a point does without a change of
+/// sign.
+double safe_share_of(const std::array<Vec3, 3>& from, const std::array<Vec3, 3>& to) {
+  constexpr double kLeastArea = 0.05;  // of the start's
+  constexpr double kSafe = 0.6;        // of the way there
+  const Vec3 t1 = from[1] - from[0];
+  const Vec3 t2 = from[2] - from[0];
+  const Vec3 d1 = to[1] - to[0] - t1;
+  const Vec3 d2 = to[2] - to[0] - t2;
+  const Vec3 normal = t1.cross(t2);
+  const double c = normal.squaredNorm();
+  const double b = (d1.cross(t2) + t1.cross(d2)).dot(normal);
+  const double q = d1.cross(d2).dot(normal);
+  double share = fold_free_share(from, to);
+  const double lowest = q > 0 ? -0.5 * b / q : 0;
+  if (lowest > 0 && lowest < 1.25 && c + 0.5 * b * lowest < kLeastArea * c)
+    share = std::min(share, kSafe * lowest);
+  return share;
+}
+
+}  // namespace
 
 FaceOffsetting::FaceOffsetting(std::span<const Triangle> triangles, const Topology& topology,
                                const FaceOffsettingOptions& options, unsigned threads)
@@ -51,7 +75,8 @@ double FaceOffsetting::fold_share(std::span<const Vec3> positions, Index& vertex
   for (const Triangle& t : triangles_) {
     const std::array<Vec3, 3> from = {positions[t[0]], positions[t[1]], positions[t[2]]};
     if (!(area_vector(from[0], from[1], from[2]).squaredNorm() > 0)) continue;
-    const double share = fold_free_share(from, {from[0] + moves_[t[0]], from[1] + moves_[t[1]], from[2] + moves_[t[2]]});
+    const double share =
+        safe_share_of(from, {from[0] + moves_[t[0]], from[1] + moves_[t[1]], from[2] + moves_[t[2]]});
     if (share < least) {
       least = share;
       vertex = t[0];
@@ -60,7 +85,8 @@ double FaceOffsetting::fold_share(std::span<const Vec3> positions, Index& vertex
   return least;
 }
 
-OffsetReport FaceOffsetting::propagate(const NormalSpeed& speed, double t, double dt, std::span<Vec3> positions) {
+OffsetReport FaceOffsetting::propagate(const NormalSpeed& speed, double t, double dt,
+                                       std::span<Vec3> positions) {
   OffsetReport report;
   report.parts = 0;
   const std::vector<Vec3> start(positions.begin(), positions.end());
@@ -90,7 +116,8 @@ OffsetReport FaceOffsetting::propagate(const NormalSpeed& speed, double t, doubl
       for (std::size_t v = 0; v < positions.size(); ++v) {
         positions[v] += moves_[v];
         if (!positions[v].allFinite())
-          throw MotionError(t + (done + part) * dt, static_cast<Index>(v), "the position is no longer finite");
+          throw MotionError(t + (done + part) * dt, static_cast<Index>(v),
+                            "the position is no longer finite");
       }
       done = part == 1 - done ? 1 : done + part;
       ++report.parts;

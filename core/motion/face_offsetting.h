@@ -32,8 +32,8 @@ struct OffsetReport {
 /// Every triangle moves to the plane offset by its motion; a vertex minimises the weighted squared distances
 /// to the planes of its triangles. The eigen-decomposition of the weighted normal covariance N W N^T tells in
 /// which directions the planes say something (the primary space: one in a smooth place, two on a ridge, three
-/// in a corner); in the others, the null space, a vertex keeps its own tangential motion: none when the motion
-/// propagates along normals. So creases and corners stay sharp, and a smooth surface does not wrinkle.
+/// in a corner); in the others, the null space, a vertex keeps its own tangential motion: none when the
+/// motion propagates along normals. So creases and corners stay sharp, and a smooth surface does not wrinkle.
 /// A step is cut where the signed area of a triangle would vanish along it.
 class FaceOffsetting {
  public:
@@ -44,10 +44,10 @@ class FaceOffsetting {
   /// of constant speed. Throws MotionError where the surface folds, the positions then unchanged.
   OffsetReport propagate(const NormalSpeed& speed, double t, double dt, std::span<Vec3> positions);
 
-  /// Motion with the flow: `moved` is where a flow takes the vertices during the step. The planes of the moved
-  /// triangles pass through the moved vertices, so that what is found agrees with them where the surface is
-  /// resolved. Overwrites positions. Returns false, positions unchanged, where a triangle would fold:
-  /// the caller takes a shorter step.
+  /// Motion with the flow: `moved` is where a flow takes the vertices during the step. The planes of the
+  /// moved triangles pass through the moved vertices, so that what is found agrees with them where the
+  /// surface is resolved. Overwrites positions. Returns false, positions unchanged, where a triangle would
+  /// fold: the caller takes a shorter step.
   [[nodiscard]] bool advect(std::span<const Vec3> moved, std::span<Vec3> positions);
 
  private:
@@ -58,9 +58,9 @@ class FaceOffsetting {
   const Topology* topology_;
   FaceOffsettingOptions options_;
   unsigned threads_;
-  std::vector<Vec3> normals_;    ///< of the moved planes, with the length of twice the old area
-  std::vector<Vec3> anchors_;    ///< a point of each moved plane
-  std::vector<Vec3> own_;        ///< own motion of each vertex
+  std::vector<Vec3> normals_;  ///< of the moved planes, with the length of twice the old area
+  std::vector<Vec3> anchors_;  ///< a point of each moved plane
+  std::vector<Vec3> own_;      ///< own motion of each vertex
   std::vector<Vec3> moves_;
 };
 

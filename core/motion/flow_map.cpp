@@ -150,8 +150,9 @@ MappedPoint FlowMap::map(const MaterialPoint& m) const {
         (2 * m.weights[k] * gradient.row(k) - weight * total_gradient) / total;
     mapped.position += weight * point;
     for (int i = 0; i < 2; ++i) {
-      mapped.jacobian.col(i) += weight_gradient[i] * point + weight * (fit.tangents[0].dot(frame[i]) * along_u +
-                                                                       fit.tangents[1].dot(frame[i]) * along_v);
+      mapped.jacobian.col(i) +=
+          weight_gradient[i] * point +
+          weight * (fit.tangents[0].dot(frame[i]) * along_u + fit.tangents[1].dot(frame[i]) * along_v);
     }
   }
   return mapped;

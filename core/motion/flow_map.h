@@ -16,12 +16,12 @@ struct MappedPoint {
 
 /// The motion of a whole surface from the known motion of the vertices of its start mesh (the carrier).
 ///
-/// At every carrier vertex the map is a polynomial of degree 3 over the start mesh's tangent plane that passes
-/// through the vertex and fits two rings of others (least squares; the degree falls where there are too few);
-/// over a triangle the three polynomials are blended with weights that make the blend smooth. What is fitted
-/// is smooth in the start surface's coordinates, however far the surface is stretched: the error stays that of
-/// the start mesh, h^4, and does not grow with what happens to the points that are mapped.
-/// The fits are linear in the carrier's positions; their matrices are made once. Fits do not cross walls.
+/// At every carrier vertex the map is a polynomial of degree 3 over the start mesh's tangent plane that
+/// passes through the vertex and fits two rings of others (least squares; the degree falls where there are
+/// too few); over a triangle the three polynomials are blended with weights that make the blend smooth. What
+/// is fitted is smooth in the start surface's coordinates, however far the surface is stretched: the error
+/// stays that of the start mesh, h^4, and does not grow with what happens to the points that are mapped. The
+/// fits are linear in the carrier's positions; their matrices are made once. Fits do not cross walls.
 class FlowMap {
  public:
   /// `walls` are creases; borders are walls by themselves. Keeps a reference to the surface.
@@ -48,8 +48,8 @@ class FlowMap {
   const MaterialSurface* surface_;
   unsigned threads_;
   Sectors sectors_;
-  std::vector<Fit> fits_;             ///< of the sectors
-  std::vector<Index> samples_;        ///< carrier vertices, fit by fit
+  std::vector<Fit> fits_;                            ///< of the sectors
+  std::vector<Index> samples_;                       ///< carrier vertices, fit by fit
   std::vector<std::array<double, kTerms>> columns_;  ///< what each sample adds to the coefficients
   std::vector<Vec3> carrier_;
   std::vector<Coefficients> coefficients_;

@@ -34,7 +34,8 @@ double element_energy(const std::array<Vec3, 3>& x, const ReferenceInverse& inve
   const Mat32 f = edges * inverse;
   const double det = f.col(0).cross(f.col(1)).norm();
   if (!(det > 0)) return std::numeric_limits<double>::infinity();
-  return (1 - weights.area) * f.squaredNorm() / det + weights.area * (std::pow(det, weights.power) + std::pow(det, -weights.power));
+  return (1 - weights.area) * f.squaredNorm() / det +
+         weights.area * (std::pow(det, weights.power) + std::pow(det, -weights.power));
 }
 
 ElementModel element_model(const std::array<Vec3, 3>& x, const std::array<Mat32, 3>& tangents,
@@ -55,7 +56,8 @@ ElementModel element_model(const std::array<Vec3, 3>& x, const std::array<Mat32,
   const double by_i = shape / d;
   const double by_d = -shape * i / (d * d) + weights.area * p * (up - down) / d;
   const double by_id = -shape / (d * d);
-  const double by_dd = 2 * shape * i / (d * d * d) + weights.area * p * ((p - 1) * up + (p + 1) * down) / (d * d);
+  const double by_dd =
+      2 * shape * i / (d * d * d) + weights.area * p * ((p - 1) * up + (p + 1) * down) / (d * d);
 
   ElementModel model;
   model.energy = shape * i / d + weights.area * (up + down);
@@ -69,10 +71,11 @@ ElementModel element_model(const std::array<Vec3, 3>& x, const std::array<Mat32,
   second(1, 2) -= by_d, second(2, 1) -= by_d;
   second = clamp_positive(second);
   const Eigen::Matrix2d metric = a.transpose() * a;
-  const Eigen::Matrix2d out = clamp_positive(
-      Eigen::Matrix2d(2 * by_i * Eigen::Matrix2d::Identity() + by_d * d * metric.inverse()));
+  const Eigen::Matrix2d out =
+      clamp_positive(Eigen::Matrix2d(2 * by_i * Eigen::Matrix2d::Identity() + by_d * d * metric.inverse()));
 
-  // F = sum over the corners of x_k times a row; in-plane parts column by column, then the part along the normal.
+  // F = sum over the corners of x_k times a row; in-plane parts column by column, then the part along the
+  // normal.
   Eigen::Matrix<double, 3, 2> rows;
   rows.row(1) = inverse.row(0);
   rows.row(2) = inverse.row(1);

@@ -11,8 +11,8 @@ namespace isorelax {
 using ReferenceInverse = Eigen::Matrix2d;
 [[nodiscard]] ReferenceInverse reference_inverse(const std::array<Vec3, 3>& corners);
 
-/// Weights of E = (1 - area) K + area (det + 1/det): shape as everywhere (method Sec. 2), areas by tau_1, which
-/// holds where tau_(1/2) gives way on triangles that are stretched many times over.
+/// Weights of E = (1 - area) K + area (det + 1/det): shape as everywhere (method Sec. 2), areas by tau_1,
+/// which holds where tau_(1/2) gives way on triangles that are stretched many times over.
 struct ElementWeights {
   double area = 0.3;
   double power = 1;  ///< p of det^p + det^-p
@@ -30,8 +30,8 @@ struct ElementModel {
 };
 
 /// `tangents[k]` spans the plane in which corner k moves (orthonormal columns). The second derivatives in the
-/// triangle's plane (4 x 4) and out of it (2 x 2) are made positive semi-definite each by itself. Precondition:
-/// the triangle has area.
+/// triangle's plane (4 x 4) and out of it (2 x 2) are made positive semi-definite each by itself.
+/// Precondition: the triangle has area.
 [[nodiscard]] ElementModel element_model(const std::array<Vec3, 3>& x,
                                          const std::array<Eigen::Matrix<double, 3, 2>, 3>& tangents,
                                          const ReferenceInverse& inverse, ElementWeights weights);

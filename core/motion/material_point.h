@@ -29,7 +29,9 @@ class MaterialSurface {
   /// Two orthonormal vectors that span the triangle.
   [[nodiscard]] const std::array<Vec3, 2>& frame(Index triangle) const { return frames_[triangle]; }
   /// Derivatives of the three weights along the two vectors of the frame.
-  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& gradient(Index triangle) const { return gradients_[triangle]; }
+  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& gradient(Index triangle) const {
+    return gradients_[triangle];
+  }
 
   /// Walks from `from` by `move` (in the frame of its triangle), straight on over edges as if the triangles
   /// beyond were unfolded; ends at a wall or where a triangle has no area.

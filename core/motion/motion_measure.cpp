@@ -44,7 +44,8 @@ MotionMeasure measure_motion(std::span<const Vec3> positions, std::span<const Tr
   measure.volume = enclosed_volume(positions, triangles, threads);
   for (Corner corner = 0; corner < 3 * triangles.size(); ++corner) {
     const Corner other = topology.opposite(corner);
-    if (other != kNone && other > corner && dihedral_turn_deg(positions, triangles, topology, corner) > kFoldedDeg)
+    if (other != kNone && other > corner &&
+        dihedral_turn_deg(positions, triangles, topology, corner) > kFoldedDeg)
       ++measure.folded_edges;
   }
   return measure;

@@ -12,16 +12,17 @@ struct MotionMeasure {
   double min_angle_deg = 0;
   double mean_angle_deg = 0;
   double angle_p01_deg = 0, angle_p05_deg = 0, angle_p50_deg = 0;  ///< percentiles: 1, 5, 50 (nearest rank)
-  double below_15_deg = 0;  ///< share of the triangles, 0..1
+  double below_15_deg = 0;                                         ///< share of the triangles, 0..1
   double area_max_over_min = 0;
   double area = 0;
-  double volume = 0;  ///< cubed length units; means something for closed meshes
+  double volume = 0;             ///< cubed length units; means something for closed meshes
   std::size_t folded_edges = 0;  ///< that turn by more than 120 degrees
 };
 
 /// Measures in parallel, the same for any number of threads. Precondition: there is a triangle.
-[[nodiscard]] MotionMeasure measure_motion(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                           const Topology& topology, unsigned threads = 0);
+[[nodiscard]] MotionMeasure measure_motion(std::span<const Vec3> positions,
+                                           std::span<const Triangle> triangles, const Topology& topology,
+                                           unsigned threads = 0);
 
 /// Distances, in length units.
 struct Distances {
@@ -31,6 +32,7 @@ struct Distances {
 };
 
 /// Of the points from a sphere.
-[[nodiscard]] Distances distance_from_sphere(std::span<const Vec3> positions, const Vec3& centre, double radius);
+[[nodiscard]] Distances distance_from_sphere(std::span<const Vec3> positions, const Vec3& centre,
+                                             double radius);
 
 }  // namespace isorelax

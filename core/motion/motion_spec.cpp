@@ -50,7 +50,8 @@ Motion rigid(std::string_view rest, std::string_view whole) {
   RigidMotion rigid;
   // The sign of an exponent or of a number is no separator.
   std::size_t plus = rest.find('+');
-  while (plus != std::string_view::npos && plus > 0 && (rest[plus - 1] == 'e' || rest[plus - 1] == 'E' || rest[plus - 1] == ','))
+  while (plus != std::string_view::npos && plus > 0 &&
+         (rest[plus - 1] == 'e' || rest[plus - 1] == 'E' || rest[plus - 1] == ','))
     plus = rest.find('+', plus + 1);
   if (plus != std::string_view::npos) {
     rigid.velocity = vector_in(rest.substr(plus + 1), whole);

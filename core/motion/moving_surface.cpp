@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mesh/degenerate.h"
@@ -54,7 +55,8 @@ MovingSurface::MovingSurface(const TriangleMesh& start, Motion motion, const Mov
   diagonal_ = diagonal_of(start_);
   closed_ = measure_deviation(start_, start_, triangles_, topology_, options_.threads).has_volume;
   start_volume_ = enclosed_volume(start_, triangles_, options_.threads);
-  if (std::holds_alternative<InitialReference>(options_.reference)) options_.reference = MeshReference{start_};
+  if (std::holds_alternative<InitialReference>(options_.reference))
+    options_.reference = MeshReference{start_};
   state_.positions = start_;
   state_.next_step = options_.step;
   if (motion_.field) integrator_.emplace(*motion_.field, options_.threads);
@@ -75,11 +77,13 @@ void MovingSurface::check(const TriangleMesh& start) const {
       throw MeshError("triangle " + std::to_string(t) + " of the start has no area");
   }
   for (Index v = 0; v < topology_.vertex_count(); ++v)
-    if (topology_.corners_of(v).empty()) throw MeshError("vertex " + std::to_string(v) + " is in no triangle");
+    if (topology_.corners_of(v).empty())
+      throw MeshError("vertex " + std::to_string(v) + " is in no triangle");
 }
 
 void MovingSurface::make_carrier(const TriangleMesh& start) {
-  const VertexClasses classes = classify_vertices(start_, triangles_, topology_, FeatureOptions{}, options_.threads);
+  const VertexClasses classes =
+      classify_vertices(start_, triangles_, topology_, FeatureOptions{}, options_.threads);
   EdgeWalls walls(3 * triangles_.size(), 0);
   for (Corner c = 0; c < walls.size(); ++c)
     if (topology_.opposite(c) == kNone) walls[c] = 1;
@@ -100,9 +104,10 @@ void MovingSurface::make_carrier(const TriangleMesh& start) {
   carrier_volume_ = start_volume_;
   material_ = std::make_unique<MaterialSurface>(start_, triangles_, topology_, walls);
   map_ = std::make_unique<FlowMap>(*material_, topology_, walls, options_.threads);
-  relaxation_ = std::make_unique<CarrierRelaxation>(
-      triangles_, topology_, reference_corners(options_.reference, start_, triangles_), options_.carrier,
-      options_.threads);
+  relaxation_ = std::make_unique<CarrierRelaxation>(triangles_, topology_,
+                                                    reference_corners(options_.reference, start_, triangles_),
+                                                    options_.carrier, options_.threads);
+  relaxation_->allow_heights(*map_, state_.points, start_);
   if (closed_ && options_.balance_volume)
     balance_ = std::make_unique<VolumeBalance>(triangles_, topology_, options_.threads);
 }
@@ -136,11 +141,13 @@ void MovingSurface::offset_along(std::vector<Vec3>& x, double time, double dt) {
 }
 
 /// Moves points by one step; returns its length. `proposed` is the one that error control asks for.
-double MovingSurface::move(std::vector<Vec3>& x, double time, double end, std::size_t step, double& proposed) {
+double MovingSurface::move(std::vector<Vec3>& x, double time, double end, std::size_t step,
+                           double& proposed) {
   report_ = {};
   double dt = next_dt(time, step, proposed, end);
   if (!motion_.field) {
     report_.parts = offsetting_->propagate(motion_.speed, time, dt, x).parts;
+    check_encloses(x, time + dt);
   } else if (options_.tolerance) {
     const StepSizeControl control(*options_.tolerance * diagonal_);
     const double least = 1e-10 * options_.step;
@@ -167,6 +174,21 @@ double MovingSurface::move(std::vector<Vec3>& x, double time, double end, std::s
   return dt;
 }
 
+/// A closed surface that propagates through itself can do so with every triangle on its side.
+void MovingSurface::check_encloses(std::span<const Vec3> x, double time) const {
+  if (!closed_ || enclosed_volume(x, triangles_, options_.threads) * start_volume_ > 0) return;
+  Index smallest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : triangles_) {
+    const double area = area_vector(x[t[0]], x[t[1]], x[t[2]]).squaredNorm();
+    if (area < least) {
+      least = area;
+      smallest = t[0];
+    }
+  }
+  throw MotionError(time, smallest, "the surface folds: it has gone through itself and encloses no volume");
+}
+
 double MovingSurface::wanted_volume() const {
   if (motion_.keeps_volume) return start_volume_;
   return start_volume_ * (enclosed_volume(carrier_, triangles_, options_.threads) / carrier_volume_);
@@ -177,7 +199,8 @@ bool MovingSurface::choose_held(std::span<const Vec3> positions) {
   std::vector<std::uint8_t> near(positions.size(), 0);
   bool any = false;
   for (const Triangle& t : triangles_) {
-    if (measure_triangle(positions[t[0]], positions[t[1]], positions[t[2]]).min_angle_deg >= options_.only_below_deg)
+    if (measure_triangle(positions[t[0]], positions[t[1]], positions[t[2]]).min_angle_deg >=
+        options_.only_below_deg)
       continue;
     any = true;
     for (const Index v : t) near[v] = 1;
@@ -238,7 +261,8 @@ void MovingSurface::advance(double end) {
     if (balance_) report_.balance = balance_->balance(*map_, next.points, wanted_volume(), next.positions);
   }
   // On the grid of fixed steps again, not where rounding led.
-  if (!options_.tolerance && next.time != end) next.time = static_cast<double>(state_.step + 1) * options_.step;
+  if (!options_.tolerance && next.time != end)
+    next.time = static_cast<double>(state_.step + 1) * options_.step;
   next.step = state_.step + 1;
   state_ = std::move(next);
 }

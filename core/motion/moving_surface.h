@@ -27,16 +27,16 @@ enum class Integration : std::uint8_t {
 
 struct MovingSurfaceOptions {
   double step = 0.01;
-  /// Largest error of a step estimated by an embedded pair, over the start's bounding-box diagonal; none: steps
-  /// are fixed.
+  /// Largest error of a step estimated by an embedded pair, over the start's bounding-box diagonal; none:
+  /// steps are fixed.
   std::optional<double> tolerance;
   Integration integration = Integration::vertices;
 
   Redistribution redistribution = Redistribution::carrier;
   CarrierRelaxationOptions carrier;
-  bool balance_volume = true;  ///< of the carrier family
-  Solver solver = Solver::jacobi;  ///< of tangent moves
-  unsigned iterations = 1;         ///< of tangent moves
+  bool balance_volume = true;                           ///< of the carrier family
+  Solver solver = Solver::jacobi;                       ///< of tangent moves
+  unsigned iterations = 1;                              ///< of tangent moves
   EnergyWeights weights = EnergyWeights::from_mu(0.5);  ///< of tangent moves
   /// Redistribute after every k-th step.
   unsigned every = 1;
@@ -85,8 +85,8 @@ class MovingSurface {
   /// Vertices that the carrier family holds: on creases, corners and borders.
   [[nodiscard]] std::size_t held_count() const;
 
-  /// One step, not beyond `end`. Throws MotionError, which names the time and the vertex; the state is then the
-  /// one before. Precondition: state().time < end.
+  /// One step, not beyond `end`. Throws MotionError, which names the time and the vertex; the state is then
+  /// the one before. Precondition: state().time < end.
   void advance(double end);
 
   /// Goes on from a state that a surface with the same start, motion and options was in, with the same result
@@ -98,6 +98,7 @@ class MovingSurface {
   void make_carrier(const TriangleMesh& start);
   double next_dt(double time, std::size_t step, double proposed, double end) const;
   double move(std::vector<Vec3>& x, double time, double end, std::size_t step, double& proposed);
+  void check_encloses(std::span<const Vec3> x, double time) const;
   void offset_along(std::vector<Vec3>& x, double time, double dt);
   bool choose_held(std::span<const Vec3> positions);
   void redistribute_tangent(std::vector<Vec3>& x);

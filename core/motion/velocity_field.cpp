@@ -61,7 +61,8 @@ class EnrightField final : public VelocityField {
 
 class FunctionField final : public VelocityField {
  public:
-  explicit FunctionField(std::function<Vec3(const Vec3&, double)> function) : function_(std::move(function)) {}
+  explicit FunctionField(std::function<Vec3(const Vec3&, double)> function)
+      : function_(std::move(function)) {}
   [[nodiscard]] Vec3 at(const Vec3& x, double t) const override { return function_(x, t); }
 
  private:
@@ -71,8 +72,8 @@ class FunctionField final : public VelocityField {
 }  // namespace
 
 MotionError::MotionError(double time, Index vertex, const std::string& reason)
-    : Error("at time " + digits_of(time) + (vertex == kNone ? "" : ", vertex " + std::to_string(vertex)) + ": " +
-            reason) {}
+    : Error("at time " + digits_of(time) + (vertex == kNone ? "" : ", vertex " + std::to_string(vertex)) +
+            ": " + reason) {}
 
 void sample_field(const VelocityField& field, std::span<const Vec3> x, double t, unsigned threads,
                   std::span<Vec3> u) {

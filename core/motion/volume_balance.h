@@ -17,9 +17,9 @@ struct BalanceReport {
 /// Gives a closed mesh the volume that its surface encloses.
 ///
 /// A mesh with its vertices on a curved surface cuts its chords: it lacks volume wherever it is coarse. Each
-/// vertex moves along its normal in proportion to the mean height of the surface over the middles of its edges
-/// (what the best piecewise linear approximation would do), with one factor for all such that the volume is
-/// the wanted one. Nothing accumulates: positions start from the surface every time.
+/// vertex moves along its normal in proportion to the mean height of the surface over the middles of its
+/// edges (what the best piecewise linear approximation would do), with one factor for all such that the
+/// volume is the wanted one. Nothing accumulates: positions start from the surface every time.
 class VolumeBalance {
  public:
   VolumeBalance(std::span<const Triangle> triangles, const Topology& topology, unsigned threads);

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/program.h"
+
+namespace isorelax::test {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(AdvectCommand, WritesAStartAnIndexALogAndStates) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  const Outcome outcome =
+      run_program("advect --sphere 100 --step 0.1 --until 0.4 --save-every 2 --vtk --exact -o " + folder);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  const Json log = Json::parse(contents(folder + "/log.json"))["steps"];
+  ASSERT_EQ(log.size(), 5U);
+  for (const char* key : {"time", "min_angle_deg", "mean_min_angle_deg", "angle_p05_deg", "below_15_deg",
+                          "area_max_over_min", "volume", "volume_change", "folded_edges"})
+    EXPECT_TRUE(log[4].contains(key)) << key;
+  EXPECT_NEAR(log[3]["time"].get<double>(), 0.3, 1e-15);
+  EXPECT_GT(log[4]["exact"]["from_exact"]["max"].get<double>(), 0);
+  EXPECT_FALSE(log[3].contains("exact"));
+  const Json series = Json::parse(contents(folder + "/states.ply.series"))["files"];
+  ASSERT_EQ(series.size(), 3U);
+  EXPECT_EQ(series[2]["name"], "state_000004.ply");
+  for (const char* file :
+       {"/start.ply", "/state_000002.ply", "/state_000004.vtp", "/states.pvd", "/run.json"})
+    EXPECT_FALSE(contents(folder + file).empty()) << file;
+  // What the log says is what the state shows to others.
+  const Outcome quality = run_program("quality --json " + folder + "/state_000004.ply");
+  EXPECT_EQ(Json::parse(quality.out)["min_angle_deg"], log[4]["min_angle_deg"]);
+}
+
+TEST(AdvectCommand, AResumedRunLeavesTheFilesOfAStraightOne) {
+  const Workspace workspace;
+  const std::string straight = workspace.path("straight");
+  const std::string resumed = workspace.path("resumed");
+  const std::string options = "advect --sphere 80 --step 0.1 --until 0.5 --save-every 1 -o ";
+  ASSERT_EQ(run_program(options + straight).status, 0);
+  ASSERT_EQ(run_program(options + resumed).status, 0);
+  for (const char* file : {"/state_000003.ply", "/state_000004.ply", "/state_000005.ply"})
+    std::filesystem::remove(resumed + file);
+  const Outcome outcome = run_program("advect --resume " + resumed + "/state_000002.ply");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const auto& entry : std::filesystem::directory_iterator(straight)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(contents(straight + "/" + name), contents(resumed + "/" + name)) << name;
+  }
+}
+
+TEST(AdvectCommand, AFieldThatFailsLeavesWhatWasWritten) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  const Outcome outcome = run_program(
+      "advect --sphere 50 --field 'expr:1/max(0,0.25-t);0;0' --step 0.1 --until 1 --save-every 1 -o " +
+      folder);
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("isorelax: error: at time 0.25, vertex 0: "), std::string::npos) << outcome.err;
+  EXPECT_EQ(Json::parse(contents(folder + "/log.json"))["steps"].size(), 3U);
+  EXPECT_EQ(run_program("quality " + folder + "/state_000002.ply").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder + "/state_000003.ply"));
+}
+
+TEST(AdvectCommand, MistakesAreToldBeforeAnythingIsWritten) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  for (const char* options : {"--field swirl", "--preset best", "--sphere 3", "--sphere 100:-1",
+                              "--field 'expr:1;2'", "--step nan", "--preset none --volume keep", "--mu 0.5",
+                              "--field normal:1 --tolerance 1e-6", "--reference equilateral:0"}) {
+    const Outcome outcome = run_program("advect -o " + folder + " " + options);
+    EXPECT_EQ(outcome.status, 2) << options << ": " << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder)) << options;
+  }
+  EXPECT_EQ(run_program("advect").status, 2);
+  EXPECT_EQ(run_program("advect --resume " + workspace.write("no.ply", "nothing")).status, 3);
+}
+
+TEST(AdvectCommand, DoesNotWriteOverARun) {
+  const Workspace workspace;
+  const std::string options = "advect --sphere 50 --step 0.1 --until 0.1 -o " + workspace.path("run");
+  EXPECT_EQ(run_program(options).status, 0);
+  EXPECT_EQ(run_program(options).status, 2);
+}
+
+TEST(AdvectCommand, AnInterruptedRunWritesItsStateAndGoesOnFromIt) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  const Outcome outcome =
+      run_program("advect --sphere 300 --step 0.001 --until 1000 --save-every 100000 -o " + folder +
+                  " & pid=$!; sleep 0.3; kill -INT $pid; wait $pid");
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("go on with --resume " + folder + "/state_"), std::string::npos) << outcome.err;
+  const Json series = Json::parse(contents(folder + "/states.ply.series"))["files"];
+  EXPECT_EQ(series.size(), 2U);
+}
+
+}  // namespace
+}  // namespace isorelax::test

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/motion/spheres.h"
+#include "motion/dense_copy.h"
+#include "surface/deviation.h"
+
+namespace isorelax {
+namespace {
+
+MovingSurfaceOptions preset_with_step(const char* name, double step) {
+  MovingSurfaceOptions options = motion_preset(name);
+  options.step = step;
+  options.threads = 1;
+  return options;
+}
+
+TEST(MovingSurface, RigidMotionChangesPositionsAndNothingElse) {
+  const TriangleMesh mesh = paper_sphere(300);
+  for (const char* preset : {"none", "paper", "accuracy", "balanced", "angles"}) {
+    MovingSurface surface(mesh, parse_motion("rigid:0,0,1.57079632679489662@0.5,0.75,0.5+0.1,0,0"),
+                          preset_with_step(preset, 0.05));
+    advance_to(surface, 1);
+    const std::vector<Vec3>& x = surface.state().positions;
+    double largest = 0;
+    for (Index t = 0; t < mesh.triangle_count(); ++t) {
+      const Triangle& v = mesh.triangles[t];
+      for (unsigned k = 0; k < 3; ++k) {
+        const double before = (mesh.positions[v[next(k)]] - mesh.positions[v[k]]).norm();
+        largest = std::max(largest, std::abs((x[v[next(k)]] - x[v[k]]).norm() / before - 1));
+      }
+    }
+    EXPECT_LT(largest, preset == std::string("paper") ? 1e-3 : 1e-6) << preset;
+  }
+}
+
+TEST(MovingSurface, TimeReversalBringsTheSphereBackAndKeepsItsVolume) {
+  const TriangleMesh mesh = paper_sphere(500);
+  MovingSurface surface(mesh, parse_motion("paper:0.6"), preset_with_step("balanced", 0.05));
+  const double volume = enclosed_volume(mesh.positions, mesh.triangles);
+  while (surface.state().time < 0.6) {
+    surface.advance(0.6);
+    EXPECT_NEAR(enclosed_volume(surface.state().positions, mesh.triangles) / volume, 1, 1e-9);
+  }
+  double largest = 0;
+  for (const Vec3& x : surface.state().positions)
+    largest = std::max(largest, std::abs((x - Vec3(0.5, 0.75, 0.5)).norm() - 0.15));
+  EXPECT_LT(largest, 0.15 * 0.003);
+}
+
+TEST(MovingSurface, RedistributionMakesAnglesBetterAndStaysNearTheExactSurface) {
+  const TriangleMesh mesh = paper_sphere(500);
+  std::vector<double> means, errors;
+  for (const char* preset : {"none", "balanced"}) {
+    MovingSurface surface(mesh, parse_motion("paper"), preset_with_step(preset, 0.03));
+    DenseCopy dense(mesh, 1, {}, 1);
+    const Motion motion = parse_motion("paper");
+    while (surface.state().time < 0.3) {
+      const double before = surface.state().time;
+      surface.advance(0.3);
+      dense.advance(*motion.field, before, surface.report().dt);
+    }
+    means.push_back(
+        measure_motion(surface.state().positions, mesh.triangles, surface.topology()).mean_angle_deg);
+    errors.push_back(dense.distances(surface.state().positions, mesh.triangles).second.max);
+  }
+  EXPECT_GT(means[1], means[0] + 8);
+  EXPECT_LT(errors[1], 0.15 * 0.05);
+}
+
+TEST(MovingSurface, AResumedRunIsTheStraightOneToTheBit) {
+  const TriangleMesh mesh = paper_sphere(200);
+  for (const char* preset : {"none", "paper", "balanced"}) {
+    for (const bool controlled : {false, true}) {
+      MovingSurfaceOptions options = preset_with_step(preset, 0.04);
+      if (controlled) options.tolerance = 1e-7;
+      MovingSurface straight(mesh, parse_motion("paper:0.5"), options);
+      for (int i = 0; i < 3; ++i) straight.advance(0.5);
+      const MovingState middle = straight.state();
+      advance_to(straight, 0.5);
+      MovingSurface resumed(mesh, parse_motion("paper:0.5"), options);
+      resumed.restore(middle, 0.5);
+      advance_to(resumed, 0.5);
+      EXPECT_EQ(straight.state().positions, resumed.state().positions) << preset;
+      EXPECT_EQ(straight.state().step, resumed.state().step);
+    }
+  }
+}
+
+TEST(MovingSurface, ThreadsDoNotMatter) {
+  const TriangleMesh mesh = paper_sphere(1500);
+  std::vector<std::vector<Vec3>> results;
+  for (const unsigned threads : {1U, 2U}) {
+    MovingSurfaceOptions options = preset_with_step("balanced", 0.05);
+    options.threads = threads;
+    MovingSurface surface(mesh, parse_motion("enright"), options);
+    advance_to(surface, 0.1);
+    results.push_back(surface.state().positions);
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(MovingSurface, RedistributesOnlyWhenAndWhereItIsAskedTo) {
+  const TriangleMesh mesh = paper_sphere(300);
+  MovingSurfaceOptions options = preset_with_step("balanced", 0.05);
+  options.every = 2;
+  MovingSurface surface(mesh, parse_motion("paper"), options);
+  surface.advance(1);
+  EXPECT_FALSE(surface.report().redistributed);
+  surface.advance(1);
+  EXPECT_TRUE(surface.report().redistributed);
+  options.every = 1;
+  options.only_below_deg = 1;
+  MovingSurface idle(mesh, parse_motion("paper"), options);
+  idle.advance(1);
+  EXPECT_FALSE(idle.report().redistributed);
+}
+
+TEST(MovingSurface, AFieldThatBlowsUpNamesTimeAndVertexAndLeavesTheStateBefore) {
+  const TriangleMesh mesh = paper_sphere(100);
+  for (const char* preset : {"none", "paper", "balanced"}) {
+    MovingSurface surface(mesh, parse_motion("expr:1/max(0,0.12-t);0;0"), preset_with_step(preset, 0.05));
+    std::vector<Vec3> last;
+    try {
+      while (surface.state().time < 1) {
+        last = surface.state().positions;
+        surface.advance(1);
+      }
+      FAIL() << "went on";
+    } catch (const MotionError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("at time 0.1", 0), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find("vertex 0"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(surface.state().positions, last);
+    EXPECT_NEAR(surface.state().time, 0.1, 1e-12);
+  }
+}
+
+TEST(MovingSurface, CreasesAndBordersKeepTheirVertices) {
+  GenerateOptions shape;
+  shape.triangles = 300;
+  const TriangleMesh cube = generate(ShapeKind::cube, shape);
+  MovingSurface surface(cube, parse_motion("shear:0.5"), preset_with_step("balanced", 0.1));
+  EXPECT_GT(surface.held_count(), 0U);
+  EXPECT_LT(surface.held_count(), cube.positions.size());
+  advance_to(surface, 0.4);
+  // A sheared cube: vertices stay on its planes, volume is kept.
+  double largest = 0;
+  for (const Vec3& x : surface.state().positions) {
+    const Vec3 back(x.x() - 0.4 * 0.5 * x.y(), x.y(), x.z());
+    largest = std::max(largest, std::abs((back - Vec3::Constant(0.5)).cwiseAbs().maxCoeff() - 0.5));
+  }
+  EXPECT_LT(largest, 1e-9);
+}
+
+TEST(MovingSurface, RefusesWhatItCannotCarry) {
+  TriangleMesh mesh = paper_sphere(50);
+  EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), preset_with_step("balanced", 0)), UsageError);
+  MovingSurfaceOptions options = motion_preset("balanced");
+  options.reference = MeshReference{std::vector<Vec3>(3, Vec3::Zero())};
+  EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), options), MeshError);
+  mesh.positions.emplace_back(0, 0, 0);
+  EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), motion_preset("balanced")), MeshError);
+}
+
+}  // namespace
+}  // namespace isorelax
