@@ -17,10 +17,10 @@ MovingSurfaceOptions preset_with_step(const char* name, double step) {
 }
 
 TEST(MovingSurface, RigidMotionChangesPositionsAndNothingElse) {
-  const TriangleMesh mesh = paper_sphere(300);
+  const TriangleMesh mesh = paper_sphere(120);
   for (const char* preset : {"none", "paper", "accuracy", "balanced", "angles"}) {
     MovingSurface surface(mesh, parse_motion("rigid:0,0,1.57079632679489662@0.5,0.75,0.5+0.1,0,0"),
-                          preset_with_step(preset, 0.05));
+                          preset_with_step(preset, 0.1));
     advance_to(surface, 1);
     const std::vector<Vec3>& x = surface.state().positions;
     double largest = 0;
@@ -31,7 +31,7 @@ TEST(MovingSurface, RigidMotionChangesPositionsAndNothingElse) {
         largest = std::max(largest, std::abs((x[v[next(k)]] - x[v[k]]).norm() / before - 1));
       }
     }
-    EXPECT_LT(largest, preset == std::string("paper") ? 1e-3 : 1e-6) << preset;
+    EXPECT_LT(largest, preset == std::string("paper") ? 1e-3 : 1e-5) << preset;
   }
 }
 
@@ -70,7 +70,7 @@ TEST(MovingSurface, RedistributionMakesAnglesBetterAndStaysNearTheExactSurface) 
 }
 
 TEST(MovingSurface, AResumedRunIsTheStraightOneToTheBit) {
-  const TriangleMesh mesh = paper_sphere(200);
+  const TriangleMesh mesh = paper_sphere(80);
   for (const char* preset : {"none", "paper", "balanced"}) {
     for (const bool controlled : {false, true}) {
       MovingSurfaceOptions options = preset_with_step(preset, 0.04);
@@ -89,13 +89,13 @@ TEST(MovingSurface, AResumedRunIsTheStraightOneToTheBit) {
 }
 
 TEST(MovingSurface, ThreadsDoNotMatter) {
-  const TriangleMesh mesh = paper_sphere(1500);
+  const TriangleMesh mesh = paper_sphere(1100);
   std::vector<std::vector<Vec3>> results;
   for (const unsigned threads : {1U, 2U}) {
     MovingSurfaceOptions options = preset_with_step("balanced", 0.05);
     options.threads = threads;
     MovingSurface surface(mesh, parse_motion("enright"), options);
-    advance_to(surface, 0.1);
+    surface.advance(1);
     results.push_back(surface.state().positions);
   }
   EXPECT_EQ(results[0], results[1]);
