@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "quality/triangle_metrics.h"
-#include "render/picture.h"
+#include "render/offscreen.h"
+#include "render/overlay.h"
+#include "render/renderer.h"
+#include "view/scene.h"
 
 namespace isorelax::cli {
 
@@ -28,22 +31,26 @@ void MotionPictures::look_at(const TriangleMesh& mesh) {
 render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& caption) const {
   std::vector<double> areas = face_metric(FaceMetric::area, mesh.positions, mesh.triangles);
   for (double& area : areas) area /= mean_area_;
-  render::PictureOptions options;
-  options.size = {width_, height_};
-  options.camera = camera_;
-  options.wire = true;
-  options.caption = caption;
-  options.background = render::kWhiteBackground;
+  view::View view;
+  view.color = view::ColorBy::area;
+  view.size = {width_, height_};
+  view.points = 1;
+  view.wire = true;
+  view.background = render::kWhiteBackground;
   // The same on both sides of 1, and never without width.
   constexpr double kLeast = 1.01;
   const double most = std::max({high_, 1 / std::max(low_, 1e-12), kLeast});
-  options.range = render::Range{1 / most, most};
-  // Points that no triangle uses are not drawn, but the camera sees them.
-  TriangleMesh shown = mesh;
-  for (unsigned corner = 0; corner < 8; ++corner)
-    shown.positions.emplace_back(box_[corner & 1U].x(), box_[corner >> 1 & 1U].y(),
-                                 box_[corner >> 2 & 1U].z());
-  return render::render_picture(shown, render::FaceColors{render::Quantity::area, areas}, options);
+  view.range = {view::RangeRule::ends, {1 / most, most}};
+  const render::Coloring coloring = view::coloring_of(view, areas);
+  view::Depiction depiction = view::depict(
+      view, coloring,
+      {.positions = mesh.positions, .triangles = mesh.triangles, .values = areas, .label = caption});
+  depiction.scene.legend = view::legend_of(view, coloring, areas);
+  const render::FitOptions fitting{.right = render::legend_share(depiction.scene, view.size)};
+  const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
+  render::Renderer renderer(context->loader());
+  renderer.draw(depiction.scene, render::parse_camera(camera_, box_, view.size, fitting), view.size);
+  return renderer.read_back();
 }
 
 render::Image tile(std::span<const render::Image> images, std::size_t columns) {
