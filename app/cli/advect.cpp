@@ -31,7 +31,12 @@ constexpr const char* kAdvectNotes =
     "index\n"
     "for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step: "
     "angles, areas,\n"
-    "volume, folded edges, and the error where the exact surface is known.\n"
+    "volume, folded edges, and the error where the exact surface is known. \"deviation\" is, of carrier "
+    "moves, the distance\n"
+    "between the mesh and the surface that the motion made of the start, at the vertices and the middles of "
+    "edges; of tangent\n"
+    "moves that of one step's moved vertices from the mesh before, which gathers. Lengths are those of the "
+    "mesh.\n"
     "\n"
     "Fields:\n"
     "  paper[:T]        Eq. (10) of the paper; reverses at T/2 (default T 3)\n"
@@ -237,6 +242,9 @@ class AdvectCommand : public Command {
       least = std::min(least, entry["min_angle_deg"].get<double>());
     }
     const Json& last = series.log().back();
+    double deviation = 0;
+    for (const Json& entry : series.log())
+      deviation = std::max(deviation, entry["deviation_max"].get<double>());
     console.message("time " + number_text(last["time"].get<double>()) + " after " +
                     std::to_string(last["step"].get<std::size_t>()) + " steps: smallest angle " +
                     number_text(last["min_angle_deg"].get<double>()) + " deg (" + number_text(least) +

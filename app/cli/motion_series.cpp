@@ -88,6 +88,8 @@ Json entry_json(const MotionEntry& entry) {
                  {"area", m.area},
                  {"volume", m.volume},
                  {"volume_change", entry.volume_change},
+                 {"deviation_max", entry.report.deviation.max},
+                 {"deviation_rms", entry.report.deviation.rms},
                  {"folded_edges", m.folded_edges},
                  {"parts", entry.report.parts},
                  {"redistributed", entry.report.redistributed},

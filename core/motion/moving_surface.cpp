@@ -8,6 +8,7 @@
 #include "mesh/degenerate.h"
 #include "mesh/parallel.h"
 #include "quality/triangle_metrics.h"
+#include "surface/closest_point.h"
 #include "surface/deviation.h"
 #include "surface/vertex_class.h"
 
@@ -23,6 +24,22 @@ double diagonal_of(std::span<const Vec3> x) {
   }
   return (high - low).norm();
 }
+
+class DistanceSum {
+ public:
+  void add(double distance) {
+    largest_ = std::max(largest_, distance);
+    squares_ += distance * distance;
+    ++count_;
+  }
+  [[nodiscard]] SurfaceDistance result() const {
+    return {largest_, count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0};
+  }
+
+ private:
+  double largest_ = 0, squares_ = 0;
+  std::size_t count_ = 0;
+};
 
 /// The corners of each triangle's reference. Throws MeshError, UsageError.
 std::vector<std::array<Vec3, 3>> reference_corners(const ReferenceChoice& choice, std::span<const Vec3> start,
@@ -108,6 +125,7 @@ void MovingSurface::make_carrier(const TriangleMesh& start) {
                                                     reference_corners(options_.reference, start_, triangles_),
                                                     options_.carrier, options_.threads);
   relaxation_->allow_heights(*map_, state_.points, start_);
+  middles_ = std::make_unique<EdgeMiddles>(triangles_, topology_, options_.threads);
   if (closed_ && options_.balance_volume)
     balance_ = std::make_unique<VolumeBalance>(triangles_, topology_, options_.threads);
 }
@@ -243,7 +261,12 @@ void MovingSurface::advance(double end) {
   if (options_.redistribution != Redistribution::carrier) {
     next.time = state_.time + move(next.positions, state_.time, end, state_.step, next.next_step);
     if (due && options_.redistribution == Redistribution::tangent && choose_held(next.positions)) {
+      const std::vector<Vec3> before = next.positions;
       redistribute_tangent(next.positions);
+      const ClosestPointIndex surface(before, triangles_);
+      DistanceSum sum;
+      for (const Vec3& x : next.positions) sum.add(surface.closest(x).distance);
+      report_.deviation = sum.result();
       report_.redistributed = true;
     }
   } else {
@@ -258,13 +281,23 @@ void MovingSurface::advance(double end) {
       report_.relaxation = relaxation_->relax(*map_, held_, next.points, next.positions);
       report_.redistributed = true;
     }
+    const std::vector<Vec3> on_surface = next.positions;
     if (balance_) report_.balance = balance_->balance(*map_, next.points, wanted_volume(), next.positions);
+    measure_deviation_of(next, on_surface);
   }
   // On the grid of fixed steps again, not where rounding led.
   if (!options_.tolerance && next.time != end)
     next.time = static_cast<double>(state_.step + 1) * options_.step;
   next.step = state_.step + 1;
   state_ = std::move(next);
+}
+
+void MovingSurface::measure_deviation_of(const MovingState& state, std::span<const Vec3> on_surface) {
+  middles_->measure(*map_, state.points, state.positions);
+  DistanceSum sum;
+  for (const Vec3& height : middles_->heights()) sum.add(height.norm());
+  for (std::size_t v = 0; v < on_surface.size(); ++v) sum.add((state.positions[v] - on_surface[v]).norm());
+  report_.deviation = sum.result();
 }
 
 void MovingSurface::restore(const MovingState& state, double end) {

@@ -62,6 +62,11 @@ struct MovingState {
   std::vector<MaterialPoint> points;  ///< of the carrier family, else empty
 };
 
+/// How far a mesh is from the surface it ought to be, length units.
+struct SurfaceDistance {
+  double max = 0, rms = 0;
+};
+
 /// What the last step did.
 struct MovingReport {
   double dt = 0;
@@ -69,6 +74,10 @@ struct MovingReport {
   RelaxationReport relaxation;
   BalanceReport balance;
   bool redistributed = false;
+  /// Of the carrier family: of the surface from the middles of the mesh's edges, and of the vertices from the
+  /// surface. Of tangent moves: of the vertices from the mesh before the moves of this step; that gathers
+  /// from step to step.
+  SurfaceDistance deviation;
 };
 
 /// A mesh that a motion carries, its vertices redistributed on the way. Connectivity never changes.
@@ -102,6 +111,7 @@ class MovingSurface {
   void offset_along(std::vector<Vec3>& x, double time, double dt);
   bool choose_held(std::span<const Vec3> positions);
   void redistribute_tangent(std::vector<Vec3>& x);
+  void measure_deviation_of(const MovingState& state, std::span<const Vec3> on_surface);
   [[nodiscard]] double wanted_volume() const;
 
   std::vector<Triangle> triangles_;
@@ -122,6 +132,7 @@ class MovingSurface {
   std::unique_ptr<FlowMap> map_;
   std::unique_ptr<CarrierRelaxation> relaxation_;
   std::unique_ptr<VolumeBalance> balance_;
+  std::unique_ptr<EdgeMiddles> middles_;
   std::vector<Vec3> carrier_;
   std::vector<std::uint8_t> always_held_, held_;
 };
