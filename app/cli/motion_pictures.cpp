@@ -42,9 +42,12 @@ render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& 
   const double most = std::max({high_, 1 / std::max(low_, 1e-12), kLeast});
   view.range = {view::RangeRule::ends, {1 / most, most}};
   const render::Coloring coloring = view::coloring_of(view, areas);
-  view::Depiction depiction = view::depict(
-      view, coloring,
-      {.positions = mesh.positions, .triangles = mesh.triangles, .values = areas, .label = caption});
+  view::Subject subject;
+  subject.positions = mesh.positions;
+  subject.triangles = mesh.triangles;
+  subject.values = areas;
+  subject.label = caption;
+  view::Depiction depiction = view::depict(view, coloring, subject);
   depiction.scene.legend = view::legend_of(view, coloring, areas);
   const render::FitOptions fitting{.right = render::legend_share(depiction.scene, view.size)};
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
