@@ -208,6 +208,9 @@ MovingState read_state(const std::filesystem::path& path) {
   const std::vector<double>* triangles = column("material_triangle");
   if (triangles == nullptr) return state;
   state.points.resize(state.positions.size());
+  for (const double number : *triangles)
+    if (!(number >= 0 && number < kNone))
+      throw InputError(path.string(), "", "its material points are not whole");
   for (std::size_t k = 0; k < 3; ++k) {
     const std::vector<double>* weights = column("material_weight_" + std::to_string(k));
     if (weights == nullptr) throw InputError(path.string(), "", "its material points are not whole");

@@ -188,6 +188,7 @@ MotionTable compute_motion_table(const MotionTableOptions& options,
 
 std::vector<MotionGoal> motion_goals(const MotionTable& table) {
   std::vector<MotionGoal> goals;
+  goals.reserve(kKnownRows.size() + 3);
   for (const KnownRow& known : kKnownRows) goals.push_back(beat_goal(table, known));
   goals.push_back(exact_goal(table));
   goals.push_back(fold_goal(table));

@@ -305,7 +305,8 @@ void MovingSurface::restore(const MovingState& state, double end) {
       state.points.size() != (options_.redistribution == Redistribution::carrier ? start_.size() : 0))
     throw MeshError("the state has another number of vertices than the start");
   for (const MaterialPoint& point : state.points)
-    if (point.triangle >= triangles_.size() || !point.weights.allFinite() || point.weights.minCoeff() < 0)
+    if (point.triangle >= triangles_.size() || !point.weights.allFinite() || point.weights.minCoeff() < 0 ||
+        std::abs(point.weights.sum() - 1) > 1e-9)
       throw MeshError("the state's material points are not those of the start");
   if (options_.redistribution == Redistribution::carrier) {
     // The carrier goes its way whatever its points do: it is moved again, from the start.
