@@ -100,6 +100,7 @@ struct Inspected {
   std::string mismatch;
   std::optional<VertexExplanation> vertex;
   std::optional<TriangleExplanation> triangle;
+  std::optional<GradientCheck> check;
   StepMemory memory;
 };
 /// Where a vertex was, over the iterations of a branch.

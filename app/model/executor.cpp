@@ -143,6 +143,10 @@ void Executor::end_run() {
 void Executor::operator()(const Reset& command) {
   if (!s_.current) return;
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  if (s_.seeking_) {
+    s_.when_idle_.push_back([command](Session& s) { execute(s, command); });
+    return;
+  }
   if (s_.activity != Activity::idle || s_.current->geometry == s_.original->geometry) return;
   Cursor start = s_.timeline.cursor;
   start.iteration = 0;

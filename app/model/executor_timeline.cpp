@@ -117,7 +117,7 @@ void Executor::begin_branch() {
   if (!timeline.empty()) branch.parent = timeline.cursor.branch;
   branch.name = branch_name(s_.smoothing, timeline.current());
   branch.recording = std::make_shared<Recording>();
-  if (s_.current->energy) {
+  if (s_.current->energy && same_energy(s_.current->energy->settings, s_.smoothing)) {
     const QualityReport& q = s_.current->quality();
     branch.rows.push_back(
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
@@ -254,6 +254,7 @@ void Executor::operator()(Inspected& event) {
                              std::move(event.before_state), std::move(event.mismatch)};
   inspection.vertex = std::move(event.vertex);
   inspection.triangle = std::move(event.triangle);
+  inspection.check = event.check;
   follow_selection();
 }
 

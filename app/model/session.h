@@ -50,6 +50,7 @@ struct Inspection {
   std::optional<VertexExplanation> vertex;
   std::optional<TriangleExplanation> triangle;
   std::optional<VertexPath> path;
+  std::optional<GradientCheck> check;  ///< of all vertices; none for large meshes, where it takes too long
 };
 
 /// The only state of the program: the open document, settings, results, history. Everything else shows it.

@@ -14,6 +14,9 @@
 namespace isorelax::model {
 namespace {
 
+/// Triangles up to which the gradients of every step that is looked into are checked.
+constexpr Index kMostChecked = 200000;
+
 bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
@@ -230,6 +233,8 @@ Engine::Job inspect_job(InspectRequest request) {
                                         *found.record, *request.vertex);
     if (request.triangle && !found.record->shape.empty())
       inspected.triangle = explain_triangle(*problem, found.before, *found.record, *request.triangle);
+    if (problem->triangle_count() <= kMostChecked)
+      inspected.check = check_gradients(*problem, found.before, *found.record);
     if (request.inside) {
       const unsigned before = std::max(1U, request.place.iteration) - 1;
       const SeekRequest seek{0, request.document, request.settings, {}, before, {}};

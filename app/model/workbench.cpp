@@ -95,7 +95,7 @@ Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const Smoo
 
 Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings,
                               Recording& recording) {
-  if (smoother_ && recording_ == &recording && at_ == recording.size()) return *smoother_;
+  if (smoother_ && recording_ == &recording && at_ > 0 && at_ == recording.size()) return *smoother_;
   smoother_.reset();
   smoothed_ = problem(document, settings);
   smoother_ = make_smoother(*smoothed_, settings);

@@ -69,6 +69,26 @@ void draw_reasons(const Ui& ui) {
   tooltip(ui, "A dot in these colours on every limited vertex.", keys_of(Action::reasons));
 }
 
+// Says so where the program itself is at fault.
+void draw_check(const Ui& ui) {
+  const auto& check = ui.session.inspection.check;
+  if (!check) return;
+  heading(ui, "GRADIENTS");
+  if (check->wrong == 0) {
+    wrapped(ui.fonts.text, color::kBetter, "All agree with the plain formulas.");
+  } else {
+    wrapped(ui.fonts.text, color::kWorse,
+            count_text(check->wrong) + (check->wrong == 1 ? " vertex has" : " vertices have") +
+                " another gradient than the plain formulas give: a fault in the program.");
+    if (link(ui, "worst-gradient", "Go to vertex " + std::to_string(check->worst))) {
+      ui.command(model::SelectVertex{check->worst});
+      ui.request(FlyToSelection{});
+      ui.state.tab = SideTab::inspect;
+    }
+  }
+  mark_area(ui, "gradient-check", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+}
+
 void change_breakpoint(const Ui& ui, const std::function<void(std::vector<model::Breakpoint>&)>& change) {
   std::vector<model::Breakpoint> all = ui.session.breakpoints;
   change(all);
@@ -196,6 +216,7 @@ void draw_debug(const Ui& ui) {
     mark_area(ui, "ended", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   }
   draw_reasons(ui);
+  draw_check(ui);
   draw_breakpoints(ui);
   draw_log(ui);
 }

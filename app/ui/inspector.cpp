@@ -96,6 +96,9 @@ void draw_vertex(const Ui& ui, Index vertex) {
   }
   text_in(ui.fonts.small, color::kTextFaint, step_text(s));
   wrapped(ui.fonts.text, color::kText, why_sentence(*e));
+  if (e->share_error >= kShareErrorLimit || e->quotient_error >= kQuotientErrorLimit)
+    wrapped(ui.fonts.text, color::kWorse,
+            "Its gradient is not that of the energy: a fault in the program. See Gradient below.");
   mark_area(ui, "why", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   ImGui::Dummy({0, ui.px(2)});
   draw_ring(ui, *e, ui.px(190));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "ui/plot.h"
 #include "ui/widgets.h"
@@ -141,6 +142,15 @@ void draw_move_section(const Ui& ui, const VertexExplanation& e) {
   if ((e.displacement - e.proposed).norm() > 1e-9 * e.proposed.norm())
     value_row(ui, number_row("move/bent", "Bent to the surface", e.displacement.norm(), "",
                              "Its length once it leads back to the surface as it was."));
+  if (e.proposed.norm() > 0 && e.tangent.norm() > 0) {
+    const double cosine = -e.proposed.dot(e.tangent) / (e.proposed.norm() * e.tangent.norm());
+    const double angle = 180 / std::numbers::pi * std::acos(std::clamp(cosine, -1.0, 1.0));
+    value_row(ui, {"move/downhill", "Angle to downhill", number_text("%.1f", angle) + std::string(kDegree),
+                   exact_text(angle),
+                   "Between the proposed move and minus the gradient in the tangent space. Above 90 degrees "
+                   "it points uphill: methods without an energy may, single vertices of L-BFGS, too.",
+                   angle > 90 ? color::kWorse : color::kText});
+  }
   value_row(ui, {"move/alpha", "Accepted share \xCE\xB1", percent(e.alpha), exact_text(e.alpha),
                  "Share of the move that the step control and the energy guard left."});
   value_row(ui, number_row("move/made", "Moved by", e.alpha * e.displacement.norm(), "",

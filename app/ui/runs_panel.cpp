@@ -58,6 +58,7 @@ void draw_difference(const Ui& ui) {
   if (count < 2) return;
   heading(ui, "COMPARE TWO RUNS");
   std::vector<std::string> names;
+  names.reserve(s.timeline.branches.size());
   for (int k = 0; k < count; ++k)
     names.push_back(std::to_string(k + 1) + "  " + s.timeline.branches[static_cast<std::size_t>(k)].name);
   const std::vector<std::string_view> labels(names.begin(), names.end());

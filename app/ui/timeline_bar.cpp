@@ -9,7 +9,6 @@
 namespace isorelax::ui {
 namespace {
 
-using model::Branch;
 using model::Stage;
 using model::StageKind;
 using model::Timeline;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "energy/triangle_energy.h"
+#include "mesh/parallel.h"
 
 namespace isorelax {
 namespace {
@@ -74,7 +75,8 @@ void explain_class(const VertexClasses& found, const FeatureOptions& features, V
   e.margin_deg = found.margin_deg[v];
 }
 
-void explain_gradient(const SmoothingProblem& problem, std::span<const Vec3> before, VertexExplanation& e) {
+/// Returns what errors are measured by beside the gradient itself.
+double explain_shares(const SmoothingProblem& problem, std::span<const Vec3> before, VertexExplanation& e) {
   Vec3 sum = Vec3::Zero();
   double scale = 0;  // what cancels in the sums bounds what rounding leaves of them
   for (const Corner c : problem.topology.corners_of(e.vertex)) {
@@ -85,8 +87,13 @@ void explain_gradient(const SmoothingProblem& problem, std::span<const Vec3> bef
     const double side = std::max((x[1] - x[0]).norm(), (x[2] - x[0]).norm());
     scale = std::max(scale, problem.exponent * powered_energy(problem, x, c / 3) / side);
   }
-  e.quotient = difference_quotient(problem, before, e.vertex);
   e.share_error = relative_error(sum, e.gradient, scale);
+  return scale;
+}
+
+void explain_gradient(const SmoothingProblem& problem, std::span<const Vec3> before, VertexExplanation& e) {
+  const double scale = explain_shares(problem, before, e);
+  e.quotient = difference_quotient(problem, before, e.vertex);
   e.quotient_error = relative_error(e.quotient, e.gradient, scale);
 }
 
@@ -118,6 +125,29 @@ VertexExplanation explain_vertex(const SmoothingProblem& problem, const FeatureO
   e.proposed = record.detail->proposed[vertex];
   e.set_by = triangle_that_cut(record, vertex);
   return e;
+}
+
+GradientCheck check_gradients(const SmoothingProblem& problem, std::span<const Vec3> before,
+                              const StepRecord& record) {
+  std::vector<GradientCheck> blocks(block_count(problem.vertex_count()));
+  parallel_for_blocks(problem.vertex_count(), problem.threads, [&](std::size_t begin, std::size_t end) {
+    GradientCheck& found = blocks[begin / kBlockSize];
+    for (std::size_t v = begin; v < end; ++v) {
+      VertexExplanation e;
+      e.vertex = static_cast<Index>(v);
+      e.gradient = record.gradient[v];
+      explain_shares(problem, before, e);
+      if (!(e.share_error >= kShareErrorLimit)) continue;
+      ++found.wrong;
+      if (e.share_error > found.largest) found.worst = e.vertex, found.largest = e.share_error;
+    }
+  });
+  GradientCheck all;
+  for (const GradientCheck& block : blocks) {
+    all.wrong += block.wrong;
+    if (block.largest > all.largest) all.worst = block.worst, all.largest = block.largest;
+  }
+  return all;
 }
 
 TriangleExplanation explain_triangle(const SmoothingProblem& problem, std::span<const Vec3> before,

@@ -58,6 +58,17 @@ inline constexpr double kQuotientErrorLimit = 1e-3;
                                                const FeatureOptions& features, std::span<const Vec3> before,
                                                const StepRecord& record, Index vertex);
 
+/// Whether the gradients of a record are those of the plain formulas, over all vertices.
+struct GradientCheck {
+  std::size_t wrong = 0;  ///< vertices whose share_error is over the limit
+  Index worst = kNone;    ///< the vertex with the largest error, when there are any
+  double largest = 0;     ///< its error
+};
+
+/// As explain_vertex finds it for each vertex. Parallel.
+[[nodiscard]] GradientCheck check_gradients(const SmoothingProblem& problem, std::span<const Vec3> before,
+                                            const StepRecord& record);
+
 /// One corner of a triangle: who it is and where it goes.
 struct CornerMove {
   Index vertex = 0;

@@ -124,6 +124,7 @@ TEST_F(DebuggerTest, ReasonsAreColoursAndCountsThatCanBeClicked) {
   const render::Image all = part("viewport");
   EXPECT_FALSE(all == plain);
   keep("reasons");
+  EXPECT_TRUE(editor.interface().state().rects.contains("gradient-check"));
   click("reason/boundary");
   EXPECT_EQ(session().selected_limit, 3U);
   EXPECT_FALSE(part("viewport") == all);

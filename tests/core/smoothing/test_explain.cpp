@@ -44,6 +44,7 @@ TEST(Explain, AVertexGradientIsTheSumOfItsTrianglesAndTheEnergysSlope) {
   for (const ExplainCase& c : explain_cases()) {
     SCOPED_TRACE(c.name);
     const Explained made = step_of(c);
+    EXPECT_EQ(check_gradients(made.problem, c.mesh.positions, made.record).wrong, 0U);
     for (Index v = 0; v < made.problem.vertex_count(); v += 7) {
       const auto e = explain_vertex(made.problem, c.options.features, c.mesh.positions, made.record, v);
       EXPECT_LT(e.share_error, kShareErrorLimit) << v;
@@ -62,6 +63,9 @@ TEST(Explain, AWrongSignInOneTermOfTheRecordIsSeen) {
   const auto wrong = explain_vertex(made.problem, {}, c.mesh.positions, made.record, v);
   EXPECT_GT(wrong.share_error, 100 * kShareErrorLimit);
   EXPECT_GT(wrong.quotient_error, kQuotientErrorLimit);
+  const GradientCheck check = check_gradients(made.problem, c.mesh.positions, made.record);
+  EXPECT_EQ(check.wrong, 1U);
+  EXPECT_EQ(check.worst, v);
 }
 
 TEST(Explain, TheTangentBasisHoldsTheProjectedGradientAndTheProposedMove) {
