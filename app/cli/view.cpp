@@ -30,7 +30,8 @@ class ViewCommand : public Command {
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("files", files_, "Meshes: OFF, OBJ, PLY or STL")->type_name("FILE");
+    app.add_option("files", files_, "Meshes: OFF, OBJ, PLY or STL; or recorded runs (smooth --trace)")
+        ->type_name("FILE");
     app.add_option("--screenshot", screenshot_,
                    "Draw the editor into this PNG file instead of opening a window")
         ->type_name("PNG");

@@ -186,5 +186,23 @@ TEST_F(PictureCommands, a_run_becomes_numbered_pictures_on_one_camera_and_one_ra
   EXPECT_EQ(run_program(smooth + " --frames " + path("m.off") + "/x").status, 4);
 }
 
+TEST(Script, DoesASessionAgainAndTellsWhatDoesNotHold) {
+  const Workspace folder;
+  ASSERT_EQ(run_program("generate random --triangles 200 --seed 3 -o '" + folder.path("a.off") + "'").status,
+            0);
+  const std::string good =
+      folder.write("good.script", "open a.off\nrun 3\nseek 2\nscreenshot a.png\nexpect moved > 0\n");
+  const Outcome done = run_program("script '" + good + "' --size 800x600");
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("a.png")));
+  const std::string wrong = folder.write("wrong.script", "open a.off\nstep\nexpect iteration == 7\n");
+  const Outcome failed = run_program("script '" + wrong + "'");
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_NE(failed.err.find("line 3"), std::string::npos) << failed.err;
+  const Outcome refused = run_program("script '" + folder.write("bad.script", "jump\n") + "'");
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("line 1"), std::string::npos) << refused.err;
+}
+
 }  // namespace
 }  // namespace isorelax::test
