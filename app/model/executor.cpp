@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "model/jobs.h"
-#include "quality/inverted.h"
 
 namespace isorelax::model {
 namespace {
@@ -214,83 +213,6 @@ void Executor::measure_energy_if_changed() {
   };
   if (stale(s_.current) || stale(s_.original))
     s_.engine.post("energy", energy_job(s_.document, s_.smoothing, s_.original, s_.current));
-}
-
-std::span<const double> Executor::worst_values() {
-  const auto by = [&](Coloring coloring) { return s_.current->values(coloring); };
-  FaceMetric metric = FaceMetric::shape;
-  switch (s_.worst_by) {
-    case WorstBy::coloring:
-      return by(s_.view.coloring == Coloring::none ? Coloring::min_angle : s_.view.coloring);
-    case WorstBy::min_angle:
-      return by(Coloring::min_angle);
-    case WorstBy::max_angle:
-      return by(Coloring::max_angle);
-    case WorstBy::area:
-      return by(Coloring::relative_area);
-    case WorstBy::energy:
-      return by(Coloring::energy);
-    case WorstBy::shape:
-      break;
-    case WorstBy::radius_ratio:
-      metric = FaceMetric::radius_ratio;
-      break;
-    case WorstBy::scaled_jacobian:
-      metric = FaceMetric::scaled_jacobian;
-      break;
-    case WorstBy::aspect_ratio:
-      metric = FaceMetric::aspect_ratio;
-      break;
-    case WorstBy::inverted:
-      break;
-  }
-  if (s_.worst_values_of_ != s_.current->geometry || s_.worst_values_by_ != s_.worst_by) {
-    const auto& triangles = s_.document->mesh().triangles;
-    if (s_.worst_by == WorstBy::inverted) {
-      s_.worst_values_.assign(triangles.size(), 0);
-      for (const Index t : inverted_triangles(s_.current->positions(), triangles, s_.document->topology))
-        s_.worst_values_[t] = 1;
-    } else {
-      s_.worst_values_ = face_metric(metric, s_.current->positions(), triangles);
-    }
-    s_.worst_values_of_ = s_.current->geometry;
-    s_.worst_values_by_ = s_.worst_by;
-  }
-  return s_.worst_values_;
-}
-
-void Executor::operator()(const SelectNextWorst& /*command*/) {
-  if (!s_.current) return;
-  const bool by_color = s_.worst_by == WorstBy::coloring;
-  const auto values = worst_values();
-  if (values.empty()) return;
-  const bool small_is_worse =
-      s_.worst_by == WorstBy::min_angle || s_.worst_by == WorstBy::radius_ratio ||
-      s_.worst_by == WorstBy::scaled_jacobian ||
-      (by_color && (s_.view.coloring == Coloring::min_angle || s_.view.coloring == Coloring::none));
-  const double sign = small_is_worse ? 1 : -1;  // smaller key: worse
-  using Key = std::pair<double, Index>;
-  const auto key = [&](Index t) { return Key{sign * values[t], t}; };
-  // A triangle that was chosen otherwise is no place to go on from.
-  const std::optional<Index> last = s_.worst_rank > 0 ? s_.selected_triangle : std::nullopt;
-  std::optional<Key> best;
-  for (Index t = 0; t < values.size(); ++t) {
-    if (last && key(t) <= key(*last)) continue;
-    if (s_.worst_by == WorstBy::inverted && values[t] == 0) continue;
-    if (!best || key(t) < *best) best = key(t);
-  }
-  const std::size_t rank = best ? s_.worst_rank + 1 : 0;
-  clear_selection();
-  s_.worst_rank = rank;
-  if (best) s_.selected_triangle = best->second;
-  if (!best && s_.worst_by == WorstBy::inverted)
-    say(MessageKind::info, "No other triangle lies upside down.");
-  ask_about_step();
-}
-
-void Executor::operator()(const ClearSelection& /*command*/) {
-  clear_selection();
-  s_.selected_limit.reset();
 }
 
 void Executor::operator()(const CopyCommandLine& /*command*/) {

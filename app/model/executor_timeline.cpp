@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "model/executor.h"
@@ -20,13 +19,6 @@ bool has_converged(const RunResult& result) {
 }
 
 }  // namespace
-
-std::string_view title(WorstBy by) {
-  constexpr std::array<std::string_view, kWorstBy> kTitles{
-      "what the colours say", "smallest angle",  "largest angle", "area",       "energy", "shape K",
-      "radius ratio",         "scaled Jacobian", "aspect ratio",  "upside down"};
-  return kTitles.at(static_cast<std::size_t>(by));
-}
 
 bool Session::continues_branch() const {
   const Branch* branch = timeline.current();
@@ -275,63 +267,6 @@ void Executor::operator()(Followed& event) {
   s_.inspection.path = VertexPath{event.branch, event.vertex, std::move(event.positions)};
 }
 
-void Executor::operator()(const SelectVertex& command) {
-  if (!s_.document || command.vertex >= s_.document->mesh().vertex_count()) {
-    if (s_.document)
-      say(MessageKind::info, "There is no vertex " + std::to_string(command.vertex) + ": the last is " +
-                                 std::to_string(s_.document->mesh().vertex_count() - 1) + ".");
-    return;
-  }
-  clear_selection();
-  s_.selected_vertex = command.vertex;
-  ask_about_step();
-}
-
-void Executor::operator()(const SelectTriangle& command) {
-  if (!s_.document || command.triangle >= s_.document->mesh().triangle_count()) {
-    if (s_.document)
-      say(MessageKind::info, "There is no triangle " + std::to_string(command.triangle) + ": the last is " +
-                                 std::to_string(s_.document->mesh().triangle_count() - 1) + ".");
-    return;
-  }
-  clear_selection();
-  s_.selected_triangle = command.triangle;
-  ask_about_step();
-}
-
-void Executor::clear_selection() {
-  s_.selected_triangle.reset();
-  s_.selected_vertex.reset();
-  s_.worst_rank = 0;
-  s_.inspection.vertex.reset();
-  s_.inspection.triangle.reset();
-  s_.inspection.path.reset();
-}
-
-void Executor::operator()(const SelectLimited& command) {
-  s_.selected_limit = command.bit;
-  if (command.bit && !s_.view.reasons) s_.view.reasons = true;
-  ask_about_step();
-}
-
-void Executor::operator()(const SetWorstBy& command) {
-  s_.worst_by = command.by;
-  s_.worst_rank = 0;
-}
-
-void Executor::operator()(const TogglePin& command) {
-  if (!s_.document || command.vertex >= s_.document->mesh().vertex_count() || s_.is_running()) return;
-  SmoothingSettings settings = s_.smoothing;
-  const auto at = std::ranges::lower_bound(settings.pinned, command.vertex);
-  const bool held = at != settings.pinned.end() && *at == command.vertex;
-  if (held)
-    settings.pinned.erase(at);
-  else
-    settings.pinned.insert(at, command.vertex);
-  (*this)(SetSmoothing{settings, (held ? "Unpin vertex " : "Pin vertex ") + std::to_string(command.vertex)});
-  s_.undo.stop_merging();
-}
-
 void Executor::operator()(const SetBreakpoints& command) {
   s_.breakpoints = command.breakpoints;
 }
@@ -351,18 +286,6 @@ void Executor::operator()(const ShowBranches& command) {
   s_.other_states.clear();
   if (!s_.timeline.empty() && !s_.is_running() && s_.current)
     seek(s_.timeline.cursor.branch, s_.timeline.cursor.iteration);
-}
-
-void Executor::operator()(const CompareBranches& command) {
-  const auto count = s_.timeline.branches.size();
-  if (command.first >= count || command.second >= count || s_.is_running()) return;
-  const auto whole = [&](unsigned branch) { return path_of(branch, s_.timeline.branches[branch].tip()); };
-  s_.engine.post("compare",
-                 compare_job(whole(command.first), whole(command.second), command.first, command.second));
-}
-
-void Executor::operator()(Compared& event) {
-  s_.comparison = std::move(event);
 }
 
 // One method after the other from the same iteration; then all of them side by side.
@@ -389,68 +312,6 @@ void Executor::operator()(const Teach& /*command*/) {
     execute(s, ShowBranches{beside});
   });
   go_on_when_idle();
-}
-
-void Executor::operator()(const SaveTrace& command) {
-  if (s_.timeline.empty()) {
-    say(MessageKind::error, "There is no run to save yet.");
-    return;
-  }
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  const unsigned branch = s_.timeline.cursor.branch;
-  s_.engine.post("", save_trace_job(path_of(branch, s_.timeline.branches[branch].tip()), command.path));
-}
-
-void Executor::operator()(Wrote& event) {
-  say(MessageKind::info, "Saved " + event.path.string());
-}
-
-void Executor::operator()(const OpenTrace& command) {
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  s_.engine.cancel();
-  s_.activity = Activity::loading;
-  s_.engine.post("load", open_trace_job(command.path, {}));
-}
-
-void Executor::operator()(const AddTrace& command) {
-  if (!s_.document) {
-    (*this)(OpenTrace{command.path});
-    return;
-  }
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  s_.engine.post("", open_trace_job(command.path, s_.document));
-}
-
-void Executor::operator()(TraceOpened& event) {
-  const bool alone = event.document != nullptr;
-  if (alone) {
-    Loaded loaded{std::move(event.document), std::move(event.state), {}};
-    if (event.settings) s_.smoothing = *event.settings;
-    (*this)(loaded);
-    s_.recent.erase(s_.recent.begin());  // the mesh in it may be in no file
-    remember_recent(event.path);
-  }
-  Branch branch;
-  branch.name = event.path.filename().string();
-  branch.settings = event.settings.value_or(s_.smoothing);
-  branch.rows = std::move(event.rows);
-  branch.steps = std::move(event.steps);
-  branch.ended = event.head.stopped_because;
-  branch.recording = std::move(event.recording);
-  branch.from_file = true;
-  if (!event.settings)
-    branch.not_redone =
-        "the run was made with \"" + event.head.arguments_text() + "\", which the editor has no settings for";
-  s_.timeline.branches.push_back(std::move(branch));
-  const auto added = static_cast<unsigned>(s_.timeline.branches.size()) - 1;
-  if (alone) {
-    s_.timeline.cursor = {added, 0, {}};
-    s_.history = s_.timeline.rows(added);
-    say(MessageKind::info,
-        "Opened a run of " + std::to_string(s_.timeline.last()) + " iterations by " + event.head.program);
-  } else {
-    say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
-  }
 }
 
 void Executor::forget_runs() {

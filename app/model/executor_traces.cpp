@@ -1,0 +1,81 @@
+#include <utility>
+
+#include "model/executor.h"
+
+namespace isorelax::model {
+
+void Executor::operator()(const CompareBranches& command) {
+  const auto count = s_.timeline.branches.size();
+  if (command.first >= count || command.second >= count || s_.is_running()) return;
+  const auto whole = [&](unsigned branch) { return path_of(branch, s_.timeline.branches[branch].tip()); };
+  s_.engine.post("compare",
+                 compare_job(whole(command.first), whole(command.second), command.first, command.second));
+}
+
+void Executor::operator()(Compared& event) {
+  s_.comparison = std::move(event);
+}
+
+void Executor::operator()(const SaveTrace& command) {
+  if (s_.timeline.empty()) {
+    say(MessageKind::error, "There is no run to save yet.");
+    return;
+  }
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  const unsigned branch = s_.timeline.cursor.branch;
+  s_.engine.post("", save_trace_job(path_of(branch, s_.timeline.branches[branch].tip()), command.path));
+}
+
+void Executor::operator()(Wrote& event) {
+  say(MessageKind::info, "Saved " + event.path.string());
+}
+
+void Executor::operator()(const OpenTrace& command) {
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.engine.cancel();
+  s_.activity = Activity::loading;
+  s_.engine.post("load", open_trace_job(command.path, {}));
+}
+
+void Executor::operator()(const AddTrace& command) {
+  if (!s_.document) {
+    (*this)(OpenTrace{command.path});
+    return;
+  }
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+  s_.engine.post("", open_trace_job(command.path, s_.document));
+}
+
+void Executor::operator()(TraceOpened& event) {
+  const bool alone = event.document != nullptr;
+  if (alone) {
+    Loaded loaded{std::move(event.document), std::move(event.state), {}};
+    if (event.settings) s_.smoothing = *event.settings;
+    (*this)(loaded);
+    s_.recent.erase(s_.recent.begin());  // the mesh in it may be in no file
+    remember_recent(event.path);
+  }
+  Branch branch;
+  branch.name = event.path.filename().string();
+  branch.settings = event.settings.value_or(s_.smoothing);
+  branch.rows = std::move(event.rows);
+  branch.steps = std::move(event.steps);
+  branch.ended = event.head.stopped_because;
+  branch.recording = std::move(event.recording);
+  branch.from_file = true;
+  if (!event.settings)
+    branch.not_redone =
+        "the run was made with \"" + event.head.arguments_text() + "\", which the editor has no settings for";
+  s_.timeline.branches.push_back(std::move(branch));
+  const auto added = static_cast<unsigned>(s_.timeline.branches.size()) - 1;
+  if (alone) {
+    s_.timeline.cursor = {added, 0, {}};
+    s_.history = s_.timeline.rows(added);
+    say(MessageKind::info,
+        "Opened a run of " + std::to_string(s_.timeline.last()) + " iterations by " + event.head.program);
+  } else {
+    say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
+  }
+}
+
+}  // namespace isorelax::model
