@@ -161,17 +161,12 @@ render::PictureSize Editor::pane() const {
 void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {
   const bool lines_only =
       &picture == &before_ && interface_.state().comparison.mode == ui::CompareMode::ghost;
-  PictureKey key{shown.state->geometry.get(),
-                 shown.state->energy.get(),
-                 shown.against.get(),
-                 view,
-                 lines_only,
-                 {},
-                 {},
-                 {},
-                 {},
-                 false,
-                 {}};
+  PictureKey key;
+  key.geometry = shown.state->geometry.get();
+  key.energy = shown.state->energy.get();
+  key.against = shown.against.get();
+  key.view = view;
+  key.lines_only = lines_only;
   if (&picture == &current_) {
     const auto& step = session_.inspection.step;
     key.step = step && !session_.is_running() ? step->record.get() : nullptr;

@@ -279,9 +279,10 @@ TEST_F(SessionTest, TheCommandLineNamesEverySettingAndQuotesTheFile) {
   session.smoothing.feature_deg = 40;
   const std::string text = command_line(session);
   EXPECT_NE(text.find("it'\\''s a square.off'"), std::string::npos) << text;
-  EXPECT_NE(text.find("--mu 0.3 --reference equilateral:0.25 --boundary slide --features 40 --iterations 1000 "
-                      "--tolerance 1e-06"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("--mu 0.3 --reference equilateral:0.25 --boundary slide --features 40 --iterations 1000 "
+                "--tolerance 1e-06"),
+      std::string::npos)
       << text;
 }
 
