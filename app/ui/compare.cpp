@@ -138,9 +138,10 @@ void draw_grid(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   const float height = std::floor(rect.height() / static_cast<float>(grid.rows));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k <= image.others.size(); ++k) {
-    const auto column = static_cast<float>(static_cast<int>(k) % grid.columns);
-    const auto row = static_cast<float>(static_cast<int>(k) / grid.columns);
-    const ImVec2 low{rect.low.x + column * width, rect.low.y + row * height};
+    const int column = static_cast<int>(k) % grid.columns;
+    const int row = static_cast<int>(k) / grid.columns;
+    const ImVec2 low{rect.low.x + static_cast<float>(column) * width,
+                     rect.low.y + static_cast<float>(row) * height};
     const Rect cell{low, {low.x + width, low.y + height}};
     draw_part(k == 0 ? image.texture : image.others[k - 1], cell, 0, 1);
     draw.AddRect(cell.low, cell.high, color::kLine);

@@ -76,9 +76,6 @@ void draw_run_icon(const Pen& pen, Icon icon) {
       pen.bar(0.45F, -0.8F, 0.8F, 0.8F);
       break;
     case Icon::reset:
-      pen.draw.AddTriangleFilled(pen.at(0.8F, -0.8F), pen.at(0.8F, 0.8F), pen.at(-0.4F, 0), pen.color);
-      pen.bar(-0.8F, -0.8F, -0.45F, 0.8F);
-      break;
     case Icon::step_back:
       pen.draw.AddTriangleFilled(pen.at(0.8F, -0.8F), pen.at(0.8F, 0.8F), pen.at(-0.4F, 0), pen.color);
       pen.bar(-0.8F, -0.8F, -0.45F, 0.8F);

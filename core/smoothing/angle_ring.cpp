@@ -10,7 +10,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
 /// degrees.
-constexpr double kLeastCosine = 0.5;
+constexpr double kLeastRingCosine = 0.5;
 
 double angle_between(const Vec3& u, const Vec3& v) {
   return kDegrees * std::atan2(u.cross(v).norm(), u.dot(v));
@@ -53,7 +53,8 @@ bool AngleRing::is_upright(const Vec3& at) const {
     if (!(area.dot(sides_[i].normal) > 0)) return false;
     if (problem_.initial_normals.empty()) continue;
     const double along = area.dot(problem_.initial_normals[triangles_[i]]);
-    if (!(along > 0 && along * along > kLeastCosine * kLeastCosine * area.squaredNorm())) return false;
+    if (!(along > 0 && along * along > kLeastRingCosine * kLeastRingCosine * area.squaredNorm()))
+      return false;
   }
   return true;
 }

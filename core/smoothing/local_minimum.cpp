@@ -8,9 +8,9 @@ namespace isorelax {
 namespace {
 
 constexpr unsigned kMaxSteps = 8;
-constexpr unsigned kMaxHalvings = 6;
+constexpr unsigned kBlockHalvings = 6;
 /// A step that gains less than this share of the sum is the last.
-constexpr double kWorthwhileGain = 0.03;
+constexpr double kWorthwhileBlockGain = 0.03;
 
 /// The triangles at a vertex, as functions of where it is.
 class Ring {
@@ -74,13 +74,13 @@ Vec3 move_to_local_minimum(const SmoothingProblem& problem, std::span<const Vec3
   for (unsigned i = 0; i < kMaxSteps; ++i) {
     Vec3 d = ring.step(at);
     double lower = ring.energy(at + d);
-    for (unsigned k = 0; k < kMaxHalvings && !(lower < energy); ++k) {
+    for (unsigned k = 0; k < kBlockHalvings && !(lower < energy); ++k) {
       d *= 0.5;
       lower = ring.energy(at + d);
     }
     if (!(lower < energy)) break;
     at += d;
-    const bool last = energy - lower < kWorthwhileGain * energy;
+    const bool last = energy - lower < kWorthwhileBlockGain * energy;
     energy = lower;
     if (last) break;
   }

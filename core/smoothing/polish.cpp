@@ -17,7 +17,7 @@ constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0};
 /// A stage ends after this many steps, or when in this many in a row no vertex moves by more than kIdleMove
 /// mean edges and the worst score rises by less than kGain degrees.
 constexpr unsigned kStageSteps = 60;
-constexpr unsigned kIdleSteps = 5;
+constexpr unsigned kPolishIdleSteps = 5;
 constexpr double kIdleMove = 1e-3;
 constexpr double kGain = 0.005;
 /// Triangles within this many degrees of the worst score are treated; halved where the mean would fall too
@@ -25,9 +25,9 @@ constexpr double kGain = 0.005;
 constexpr double kWindow = 5;
 constexpr double kLeastWindow = 0.5;
 /// A visit moves a vertex at most this share of its shortest edge at a time.
-constexpr double kReach = 0.2;
+constexpr double kPolishReach = 0.2;
 constexpr unsigned kStepsPerVisit = 2;
-constexpr unsigned kMaxHalvings = 5;
+constexpr unsigned kPolishHalvings = 5;
 
 class PolishSmoother : public Smoother {
  public:
@@ -133,7 +133,7 @@ class PolishSmoother : public Smoother {
     }
     const bool idle = largest < kIdleMove * problem_.mean_edge_length && worst_score() < before + kGain;
     idle_ = idle ? idle_ + 1 : 0;
-    if (largest > 0 && ++steps_ < kStageSteps && idle_ < kIdleSteps) return true;
+    if (largest > 0 && ++steps_ < kStageSteps && idle_ < kPolishIdleSteps) return true;
     ++stage_;
     steps_ = idle_ = 0;
     return largest > 0;
@@ -147,7 +147,7 @@ class PolishSmoother : public Smoother {
     for (unsigned i = 0; i < kStepsPerVisit; ++i) {
       Vec3 d = ascent(v, at);
       bool higher = false;
-      for (unsigned k = 0; k <= kMaxHalvings && !higher; ++k, d *= 0.5) {
+      for (unsigned k = 0; k <= kPolishHalvings && !higher; ++k, d *= 0.5) {
         const Vec3 there = bring_back(problem_, v, at + d);
         if (!ring_.is_upright(there)) continue;
         const double raised = ring_.soft_value(there, kSharpness[stage_]);
@@ -174,7 +174,7 @@ class PolishSmoother : public Smoother {
     const double slope = g.norm();
     if (!(slope > 0)) return Vec3::Zero();
     NewtonBlock block(problem_.mobility[v], axis);
-    const double damping = slope / (kReach * ring_.shortest_edge(at));
+    const double damping = slope / (kPolishReach * ring_.shortest_edge(at));
     block.h11 = damping + block.t1.dot(soft.spread * block.t1);
     block.h12 = block.t1.dot(soft.spread * block.t2);
     block.h22 = damping + block.t2.dot(soft.spread * block.t2);
