@@ -90,9 +90,11 @@ TEST(AdvectCommand, DoesNotWriteOverARun) {
 TEST(AdvectCommand, AnInterruptedRunWritesItsStateAndGoesOnFromIt) {
   const Workspace workspace;
   const std::string folder = workspace.path("run");
+  // Once the first state is there, steps begin.
   const Outcome outcome =
       run_program("advect --sphere 300 --step 0.001 --until 1000 --save-every 100000 -o " + folder +
-                  " & pid=$!; sleep 0.3; kill -INT $pid; wait $pid");
+                  " & pid=$!; until [ -e " + folder +
+                  "/states.ply.series ]; do sleep 0.05; done; sleep 0.8; kill -INT $pid; wait $pid");
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("go on with --resume " + folder + "/state_"), std::string::npos) << outcome.err;
   const Json series = Json::parse(contents(folder + "/states.ply.series"))["files"];
