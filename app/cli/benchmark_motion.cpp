@@ -88,18 +88,6 @@ double observed_order(double coarse, double fine, std::size_t coarse_vertices, s
          (0.5 * std::log(static_cast<double>(fine_vertices) / static_cast<double>(coarse_vertices)));
 }
 
-std::string bullet_lines(std::string_view sentence) {
-  constexpr std::size_t kWidth = 116;
-  std::string text;
-  while (!sentence.empty()) {
-    std::size_t end = sentence.size();
-    if (end > kWidth) end = sentence.rfind(' ', kWidth);
-    text += (text.empty() ? "- " : "  ") + std::string(sentence.substr(0, end)) + "\n";
-    sentence.remove_prefix(std::min(sentence.size(), end + 1));
-  }
-  return text;
-}
-
 Json row_json(const MotionRow& row) {
   Json object = {{"preset", row.preset}, {"period", row.period}, {"vertices", row.vertices}};
   object["middle"] = entry_json(row.middle);
@@ -142,7 +130,7 @@ std::string motion_text(const MotionTable& table) {
   for (const MotionGoal& goal : motion_goals(table))
     text += std::string(goal.met ? "met     " : "MISSED  ") + goal.wanted + "\n        " + goal.found + "\n";
   text += "\nWhat was tried\n";
-  for (const std::string_view sentence : kTried) text += bullet_lines(sentence);
+  for (const std::string_view sentence : kTried) text += bullet(sentence);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/table.h"
 #include "view/picture.h"
 
 namespace isorelax::cli {
@@ -64,19 +65,6 @@ std::string iterations_text(const PaperRow& row) {
   if (*most == 0) return "";
   return *least == *most ? std::to_string(*most) + " steps"
                          : std::to_string(*least) + " to " + std::to_string(*most) + " steps";
-}
-
-/// The text in lines of up to 110 characters, the first one after "- ".
-std::string bullet(std::string_view sentence) {
-  constexpr std::size_t kWidth = 108;
-  std::string text;
-  while (!sentence.empty()) {
-    std::size_t end = sentence.size();
-    if (end > kWidth) end = sentence.rfind(' ', kWidth);
-    text += (text.empty() ? "- " : "  ") + std::string(sentence.substr(0, end)) + "\n";
-    sentence.remove_prefix(std::min(sentence.size(), end + 1));
-  }
-  return text;
 }
 
 Json optional_numbers(const std::array<std::optional<double>, kPaperMeshes>& values) {

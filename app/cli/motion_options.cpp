@@ -7,6 +7,7 @@
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/option_words.h"
 #include "cli/problem_options.h"
 #include "cli/vertex_files.h"
 #include "generate/generate.h"
@@ -135,14 +136,7 @@ void MotionSpec::declare(CLI::App& app) {
 }
 
 std::vector<std::string> MotionSpec::words() const {
-  std::vector<std::string> words;
-  for (const CLI::Option* option : options_) {
-    for (const std::string& value : option->results()) {
-      words.push_back(option->get_name());
-      words.push_back(value);
-    }
-  }
-  return words;
+  return words_of(options_);
 }
 
 MovingSurfaceOptions MotionSpec::parse_options(Console& console) const {

@@ -7,6 +7,7 @@
 
 #include "cli/checks.h"
 #include "cli/console.h"
+#include "cli/option_words.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
 
@@ -60,14 +61,7 @@ std::optional<PolishOptions> SmoothRun::parse_polish() const {
 }
 
 std::vector<std::string> SmoothRun::words() const {
-  std::vector<std::string> words;
-  for (const CLI::Option* option : options_) {
-    for (const std::string& value : option->results()) {
-      words.push_back(option->get_name());
-      words.push_back(value);
-    }
-  }
-  return words;
+  return words_of(options_);
 }
 
 std::vector<TraceResource> SmoothRun::resources() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@ class Table {
  private:
   std::vector<std::pair<std::string, std::string>> rows_;
 };
+
+/// A sentence in lines of up to 110 characters, the first one after "- ".
+[[nodiscard]] std::string bullet(std::string_view sentence);
 
 /// A number for people: six significant digits ("37.2145", "1.2e-05", "inf").
 [[nodiscard]] std::string number_text(double value);

@@ -81,17 +81,9 @@ Distances distances_to(const ClosestPointIndex& index, std::span<const Vec3> poi
       hint = closest.triangle;
     }
   });
-  Distances distances;
-  double squares = 0;
-  for (const double distance : each) {
-    distances.max = std::max(distances.max, distance);
-    distances.mean += distance;
-    squares += distance * distance;
-  }
-  const auto count = static_cast<double>(points.size());
-  distances.mean /= count;
-  distances.rms = std::sqrt(squares / count);
-  return distances;
+  DistanceSum sum;
+  for (const double distance : each) sum.add(distance);
+  return sum.result();
 }
 
 }  // namespace

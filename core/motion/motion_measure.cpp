@@ -52,18 +52,9 @@ MotionMeasure measure_motion(std::span<const Vec3> positions, std::span<const Tr
 }
 
 Distances distance_from_sphere(std::span<const Vec3> positions, const Vec3& centre, double radius) {
-  Distances distances;
-  double squares = 0;
-  for (const Vec3& x : positions) {
-    const double distance = std::abs((x - centre).norm() - radius);
-    distances.max = std::max(distances.max, distance);
-    distances.mean += distance;
-    squares += distance * distance;
-  }
-  const auto count = static_cast<double>(positions.size());
-  distances.mean /= count;
-  distances.rms = std::sqrt(squares / count);
-  return distances;
+  DistanceSum sum;
+  for (const Vec3& x : positions) sum.add(std::abs((x - centre).norm() - radius));
+  return sum.result();
 }
 
 }  // namespace isorelax

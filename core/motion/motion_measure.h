@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -29,6 +31,26 @@ struct Distances {
   double max = 0;
   double rms = 0;
   double mean = 0;
+};
+
+/// Takes in distances one by one; of none, all are 0.
+class DistanceSum {
+ public:
+  void add(double distance) {
+    max_ = std::max(max_, distance);
+    sum_ += distance;
+    squares_ += distance * distance;
+    ++count_;
+  }
+  [[nodiscard]] Distances result() const {
+    if (count_ == 0) return {};
+    const auto count = static_cast<double>(count_);
+    return {.max = max_, .rms = std::sqrt(squares_ / count), .mean = sum_ / count};
+  }
+
+ private:
+  double max_ = 0, sum_ = 0, squares_ = 0;
+  std::size_t count_ = 0;
 };
 
 /// Of the points from a sphere.

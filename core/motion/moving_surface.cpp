@@ -25,22 +25,6 @@ double diagonal_of(std::span<const Vec3> x) {
   return (high - low).norm();
 }
 
-class DistanceSum {
- public:
-  void add(double distance) {
-    largest_ = std::max(largest_, distance);
-    squares_ += distance * distance;
-    ++count_;
-  }
-  [[nodiscard]] SurfaceDistance result() const {
-    return {largest_, count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0};
-  }
-
- private:
-  double largest_ = 0, squares_ = 0;
-  std::size_t count_ = 0;
-};
-
 /// The corners of each triangle's reference. Throws MeshError, UsageError.
 std::vector<std::array<Vec3, 3>> reference_corners(const ReferenceChoice& choice, std::span<const Vec3> start,
                                                    std::span<const Triangle> triangles) {
@@ -239,6 +223,7 @@ bool MovingSurface::choose_held(std::span<const Vec3> positions) {
 void MovingSurface::redistribute_tangent(std::vector<Vec3>& x) {
   ProblemOptions problem_options;
   problem_options.weights = options_.weights;
+  problem_options.exponent = 1;  // as in Eq. 2 of the paper
   problem_options.reference = options_.reference;
   problem_options.surface = SurfaceRule::tangent;
   problem_options.untangle = UntangleRule::off;

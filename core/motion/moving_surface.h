@@ -5,6 +5,7 @@
 #include <string>
 
 #include "motion/carrier_relaxation.h"
+#include "motion/motion_measure.h"
 #include "motion/motion_spec.h"
 #include "motion/runge_kutta.h"
 #include "motion/volume_balance.h"
@@ -62,11 +63,6 @@ struct MovingState {
   std::vector<MaterialPoint> points;  ///< of the carrier family, else empty
 };
 
-/// How far a mesh is from the surface it ought to be, length units.
-struct SurfaceDistance {
-  double max = 0, rms = 0;
-};
-
 /// What the last step did.
 struct MovingReport {
   double dt = 0;
@@ -77,7 +73,7 @@ struct MovingReport {
   /// Of the carrier family: of the surface from the middles of the mesh's edges, and of the vertices from the
   /// surface. Of tangent moves: of the vertices from the mesh before the moves of this step; that gathers
   /// from step to step.
-  SurfaceDistance deviation;
+  Distances deviation;
 };
 
 /// A mesh that a motion carries, its vertices redistributed on the way. Connectivity never changes.

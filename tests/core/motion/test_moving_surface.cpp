@@ -35,6 +35,16 @@ TEST(MovingSurface, RigidMotionChangesPositionsAndNothingElse) {
   }
 }
 
+TEST(MovingSurface, ThePapersRecipeHasThePapersEnergy) {
+  // Eq. 2 with equal weights is 2 for a triangle that is its reference, and so not yet when squared.
+  const TriangleMesh mesh = paper_sphere(120);
+  MovingSurface surface(mesh, parse_motion("rigid:0,0,0.1@0.5,0.75,0.5+0.1,0,0"),
+                        preset_with_step("paper", 0.1));
+  surface.advance(1);
+  const auto count = static_cast<double>(mesh.triangle_count());
+  EXPECT_NEAR(surface.report().relaxation.energy_before / count, 2, 1e-3);
+}
+
 TEST(MovingSurface, TimeReversalBringsTheSphereBackAndKeepsItsVolume) {
   const TriangleMesh mesh = paper_sphere(500);
   MovingSurface surface(mesh, parse_motion("paper:0.6"), preset_with_step("balanced", 0.05));
