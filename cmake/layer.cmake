@@ -11,6 +11,8 @@ target_compile_options(isorelax_build_flags INTERFACE
   $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>
   # g++ 12 sees an overlap in "text" + std::string that is not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # The same bug by other names, silent where the headers of the standard library are not precompiled.
+  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${ISORELAX_PRECOMPILE}>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
   # Nobody reads errno after sqrt, nobody traps: without this, loops with a square root are not vectorised.
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${ISORELAX_WERROR}>:-Werror>)
@@ -21,8 +23,8 @@ if(ISORELAX_SANITIZE)
 endif()
 
 # isorelax_precompile(TARGET KIND [HEADERS ...] [LIBRARIES ...]): with ISORELAX_PRECOMPILE, what most sources include is
-# compiled once for all targets of a kind and not once per file. Not in the build that treats warnings as errors: there
-# every file has to include what it uses, and g++ takes precompiled system headers for the project's own.
+# compiled once for all targets of a kind and not once per file. The preset debug does without it, and without compiling
+# several sources together: there every file has to include what it uses.
 function(isorelax_precompile target kind)
   if(NOT ISORELAX_PRECOMPILE)
     return()
