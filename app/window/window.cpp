@@ -45,13 +45,29 @@ struct WindowDeleter {
 };
 using WindowPtr = std::unique_ptr<GLFWwindow, WindowDeleter>;
 
+// Points of the wanted size for which the screen has room.
+std::pair<int, int> size_on_screen(const WindowOptions& options) {
+  std::pair<int, int> size{options.width, options.height};
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+    float scale_x = 1, scale_y = 1;
+    glfwGetMonitorContentScale(monitor, &scale_x, &scale_y);
+    int x = 0, y = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+    if (width > 0 && height > 0)
+      size = {std::min(size.first, static_cast<int>(static_cast<float>(width) / scale_x)),
+              std::min(size.second, static_cast<int>(static_cast<float>(height) / scale_y))};
+  }
+  return size;
+}
+
 WindowPtr create_window(const WindowOptions& options) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  WindowPtr window(glfwCreateWindow(options.width, options.height, "Isorelax", nullptr, nullptr));
+  const auto [width, height] = size_on_screen(options);
+  WindowPtr window(glfwCreateWindow(width, height, "Isorelax", nullptr, nullptr));
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);

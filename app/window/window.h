@@ -8,7 +8,7 @@ namespace isorelax::window {
 
 struct WindowOptions {
   std::vector<std::filesystem::path> files;  ///< the first is opened, the others are offered as recent files
-  int width = 1440;                          ///< points
+  int width = 1440;                          ///< points; less where the screen is smaller
   int height = 900;
   /// Closes after so many frames: for tests. None: stays until the user closes it.
   std::optional<unsigned> frames;

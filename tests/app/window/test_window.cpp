@@ -43,14 +43,14 @@ void expect_editor(const Image& image) {
   EXPECT_GT(yellow, 40U);
 }
 
-TEST(Window, ShowsTheEditorOnARealDisplay) {
+TEST(Window, ShowsTheEditorOnARealDisplayAndStaysWithinIt) {
   if (!has_tool("xvfb-run")) GTEST_SKIP() << "xvfb-run is not installed";
   const test::TemporaryFolder folder;
   const std::string mesh = folder.make_square().string();
   const std::string own = (folder / "own.png").string();
   const std::string program = ISORELAX_PROGRAM;
   const std::string view = "XDG_STATE_HOME=" + folder.path().string() + " " + program + " view " + mesh +
-                           " --size 1280x720 --frames 10 --window-screenshot " + own;
+                           " --size 2000x1400 --frames 10 --window-screenshot " + own;
   ASSERT_EQ(std::system(in_display(view).c_str()), 0);
   expect_editor(render::read_png(own));
 }
