@@ -25,6 +25,24 @@ std::string exact_vector(const Vec3& v) {
   return exact_text(v.x()) + " " + exact_text(v.y()) + " " + exact_text(v.z());
 }
 
+/// A figure before the step and, where it looks different, after it.
+void change_row(const Ui& ui, std::string_view name, std::string_view label, double before, double after,
+                std::string_view tip) {
+  ValueRow row = number_row(name, label, before, "", tip);
+  if (const std::string text = number_text("%.4g", after); text != row.shown) {
+    row.shown += " to " + text;
+    row.exact += " " + exact_text(after);
+  }
+  value_row(ui, row);
+}
+
+std::string angles_text(const TriangleState& state) {
+  std::string text;
+  for (const double angle : state.angles_deg)
+    text += (text.empty() ? "" : ", ") + number_text("%.2f", angle) + std::string(kDegree);
+  return text;
+}
+
 void vector_row(const Ui& ui, std::string_view name, std::string_view label, const Vec3& v,
                 std::string_view tip) {
   value_row(ui, {name, label, vector_text(v), exact_vector(v), tip});
@@ -126,12 +144,11 @@ std::string why_sentence(const VertexExplanation& e) {
 
 std::string triangle_sentence(const TriangleExplanation& e) {
   if (!e.treated) return "It takes no part: it is flawed, and its vertices are held.";
-  const double change = e.after.min_angle_deg - e.before.min_angle_deg;
+  const double from = e.before.metrics.min_angle_deg, to = e.after.metrics.min_angle_deg;
+  const double change = to - from;
   const std::string how = std::abs(change) < 0.005 ? "stays at " : change > 0 ? "rises from " : "falls from ";
-  std::string text =
-      "Its smallest angle " + how + number_text("%.2f", e.before.min_angle_deg) + std::string(kDegree);
-  if (std::abs(change) >= 0.005)
-    text += " to " + number_text("%.2f", e.after.min_angle_deg) + std::string(kDegree);
+  std::string text = "Its smallest angle " + how + number_text("%.2f", from) + std::string(kDegree);
+  if (std::abs(change) >= 0.005) text += " to " + number_text("%.2f", to) + std::string(kDegree);
   return text + " in this step.";
 }
 
@@ -275,24 +292,24 @@ void draw_triangle_sections(const Ui& ui, const TriangleExplanation& e) {
         std::max(ui.px(110), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(what.c_str()).x));
     text_in(ui.fonts.text, color::kText, what);
   }
+  const TriangleState &was = e.before, &is = e.after;
   heading(ui, "ENERGY");
-  value_row(ui, number_row("triangle/shape", "Shape K", e.shape, "", "2 for the shape of the reference."));
-  value_row(ui, number_row("triangle/area-term", "Area S", e.area, "", "2 for the area of the reference."));
-  value_row(ui, number_row("triangle/energy", "Energy E", e.energy, "", "(1 - mu) K + mu S"));
+  change_row(ui, "triangle/shape", "Shape K", was.shape, is.shape, "2 for the shape of the reference.");
+  change_row(ui, "triangle/area-term", "Area S", was.area, is.area, "2 for the area of the reference.");
+  change_row(ui, "triangle/energy", "Energy E", was.energy, is.energy, "(1 - mu) K + mu S");
   heading(ui, "SIZE AND SHAPE");
-  std::string angles;
-  for (const double angle : e.angles_deg)
-    angles += (angles.empty() ? "" : ", ") + number_text("%.2f", angle) + std::string(kDegree);
-  value_row(ui, {"triangle/angles", "Angles", angles, {}, "At its corners, before the step."});
-  value_row(ui, number_row("triangle/area", "Area", e.before.area, "", "Squared units of the file."));
+  value_row(ui,
+            {"triangle/angles", "Angles before", angles_text(was), {}, "At its corners, before the step."});
+  value_row(ui, {"triangle/angles-after", "after", angles_text(is), {}, "At its corners, after the step."});
+  change_row(ui, "triangle/area", "Area", was.metrics.area, is.metrics.area, "Squared units of the file.");
   value_row(ui, number_row("triangle/reference-area", "Reference's area", e.reference_area, "",
                            "Squared units of the file."));
-  value_row(ui, number_row("triangle/ratio", "Area over reference", e.before.area / e.reference_area,
-                           " \xC3\x97", "1 is what the area term asks for."));
-  value_row(ui, {"triangle/singular", "Singular values of A",
-                 number_text("%.4g", e.singular_values[0]) + ", " + number_text("%.4g", e.singular_values[1]),
-                 exact_text(e.singular_values[0]) + " " + exact_text(e.singular_values[1]),
-                 "A maps the reference to the triangle: how much it stretches, most and least."});
+  change_row(ui, "triangle/ratio", "Area over reference", was.metrics.area / e.reference_area,
+             is.metrics.area / e.reference_area, "1 is what the area term asks for.");
+  change_row(ui, "triangle/most", "Singular value of A", was.singular_values[0], is.singular_values[0],
+             "Larger singular value of A, which maps the reference to the triangle.");
+  change_row(ui, "triangle/least", "and the smaller", was.singular_values[1], is.singular_values[1],
+             "Smaller singular value of A.");
 }
 
 }  // namespace isorelax::ui

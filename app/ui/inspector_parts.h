@@ -15,7 +15,7 @@ namespace isorelax::ui {
 /// and the way it came.
 void draw_ring(const Ui& ui, const VertexExplanation& e, float height);
 /// A triangle beside its reference triangle, to one scale.
-void draw_triangle_pair(const Ui& ui, const TriangleExplanation& e, float height);
+void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height);
 
 /// The sections of the inspector.
 void draw_move_section(const Ui& ui, const VertexExplanation& e);

@@ -8,6 +8,16 @@
 namespace isorelax::ui {
 namespace {
 
+using Outline = std::array<std::array<double, 2>, 3>;
+
+// The triangle in a plane, its first side along x.
+Outline flatten(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 side = b - a, other = c - a;
+  const double length = side.norm();
+  if (!(length > 0)) return {};
+  return {{{0, 0}, {length, 0}, {other.dot(side) / length, other.cross(side).norm() / length}}};
+}
+
 // A plane seen from above, fitted into a rectangle.
 struct Sheet {
   Vec3 origin = Vec3::Zero(), right = Vec3::UnitX(), up = Vec3::UnitY();
@@ -124,28 +134,24 @@ void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
       {rect.low.x + ui.px(10), rect.high.y - ui.px(20)});
 }
 
-void draw_triangle_pair(const Ui& ui, const TriangleExplanation& e, float height) {
+void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height) {
   const auto& step = ui.session.inspection.step;
   if (!step) return;
   const std::vector<Vec3>& x = *step->before;
   const Triangle& corners = ui.session.document->mesh().triangles[e.triangle];
-  const Rect rect = begin_picture(ui, "triangle-pair", height);
-  // Both flat, the first side along the picture, to one scale.
-  const Vec3 side = x[corners[1]] - x[corners[0]];
-  const Vec3 other = x[corners[2]] - x[corners[0]];
-  const double c = side.norm();
-  const double along = c > 0 ? other.dot(side) / c : 0;
-  const double over = c > 0 ? other.cross(side).norm() / c : 0;
-  const std::array<std::array<double, 2>, 3> own{{{0, 0}, {c, 0}, {along, over}}};
+  const Rect rect = begin_picture(ui, "triangles", height);
+  // All flat, the first side along the picture, to one scale.
+  const auto moved = [&](unsigned k) -> Vec3 { return x[corners[k]] + e.corners.at(k).move; };
+  const Outline before = flatten(x[corners[0]], x[corners[1]], x[corners[2]]);
+  const Outline after = flatten(moved(0), moved(1), moved(2));
   double reach = 0;
-  for (const auto& points : {own, e.reference})
+  for (const Outline& points : {before, after, e.reference})
     for (const auto& p : points)
       for (const auto& q : points) reach = std::max({reach, std::abs(p[0] - q[0]), std::abs(p[1] - q[1])});
   if (!(reach > 0)) return;
-  const float scale = static_cast<float>(std::min(0.42 * rect.width(), 1.0 * height - ui.px(48)) / reach);
+  const float scale = static_cast<float>(std::min(0.27 * rect.width(), 1.0 * height - ui.px(48)) / reach);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto show = [&](const std::array<std::array<double, 2>, 3>& points, float middle, ImU32 ink,
-                        const char* label) {
+  const auto show = [&](const Outline& points, float middle, ImU32 ink, const char* label) {
     std::array<ImVec2, 3> at;
     const auto [left, right] = std::minmax({points[0][0], points[1][0], points[2][0]});
     const auto [low, high] = std::minmax({points[0][1], points[1][1], points[2][1]});
@@ -158,8 +164,9 @@ void draw_triangle_pair(const Ui& ui, const TriangleExplanation& e, float height
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize,
                  {std::floor(middle - 0.5F * width), rect.high.y - ui.px(20)}, color::kTextDim, label);
   };
-  show(own, rect.low.x + 0.27F * rect.width(), color::kAccent, "the triangle");
-  show(e.reference, rect.low.x + 0.73F * rect.width(), color::kSecond, "its reference");
+  show(before, rect.low.x + 0.18F * rect.width(), color::kTextDim, "before");
+  show(after, rect.low.x + 0.5F * rect.width(), color::kAccent, "after");
+  show(e.reference, rect.low.x + 0.82F * rect.width(), color::kSecond, "its reference");
 }
 
 }  // namespace isorelax::ui

@@ -104,6 +104,26 @@ std::array<std::array<double, 2>, 3> lay_out(const ReferenceTriangle& r) {
   return {{{0, 0}, {h * (r.cot[0] + r.cot[1]), 0}, {h * r.cot[0], h}}};
 }
 
+/// `energy` holds K, S and E of the triangle x.
+TriangleState state_of(const std::array<Vec3, 3>& x, const double (&energy)[3],
+                       const ReferenceTriangle& reference) {
+  TriangleState state;
+  state.shape = energy[0];
+  state.area = energy[1];
+  state.energy = energy[2];
+  for (unsigned k = 0; k < 3; ++k) {
+    const Vec3 a = x[next(k)] - x[k];
+    const Vec3 b = x[previous(k)] - x[k];
+    state.angles_deg[k] = 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  state.metrics = measure_triangle(x[0], x[1], x[2]);
+  // K = kappa + 1 / kappa with kappa the ratio of the two, and their product is D2 / D1.
+  const double kappa = 0.5 * (state.shape + std::sqrt(std::max(0.0, state.shape * state.shape - 4)));
+  const double determinant = 2 * state.metrics.area / reference.d1;
+  state.singular_values = {std::sqrt(determinant * kappa), std::sqrt(determinant / kappa)};
+  return state;
+}
+
 }  // namespace
 
 VertexExplanation explain_vertex(const SmoothingProblem& problem, const FeatureOptions& features,
@@ -155,9 +175,6 @@ TriangleExplanation explain_triangle(const SmoothingProblem& problem, std::span<
   TriangleExplanation e;
   e.triangle = triangle;
   e.treated = problem.treated[triangle] != 0;
-  e.shape = record.shape[triangle];
-  e.area = record.area[triangle];
-  e.energy = record.energy[triangle];
   const auto x = corners_of(problem, before, triangle);
   auto y = x;
   for (unsigned k = 0; k < 3; ++k) {
@@ -165,19 +182,15 @@ TriangleExplanation explain_triangle(const SmoothingProblem& problem, std::span<
     const Vec3 move = record.alpha[v] * record.displacement[v];
     e.corners[k] = {v, move, record.alpha[v], record.limits[v]};
     y[k] = x[k] + move;
-    const Vec3 a = x[next(k)] - x[k];
-    const Vec3 b = x[previous(k)] - x[k];
-    e.angles_deg[k] = 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b));
   }
-  e.before = measure_triangle(x[0], x[1], x[2]);
-  e.after = measure_triangle(y[0], y[1], y[2]);
   const ReferenceTriangle reference = problem.reference[triangle];
+  const double recorded[] = {record.shape[triangle], record.area[triangle], record.energy[triangle]};
+  e.before = state_of(x, recorded, reference);
+  const TriangleEnergy now = evaluate_energy(y, reference, problem.weights);
+  const double computed[] = {now.shape, now.area, now.energy};
+  e.after = state_of(y, computed, reference);
   e.reference_area = 0.5 * reference.d1;
   e.reference = lay_out(reference);
-  // K = kappa + 1 / kappa with kappa the ratio of the two, and their product is D2 / D1.
-  const double kappa = 0.5 * (e.shape + std::sqrt(std::max(0.0, e.shape * e.shape - 4)));
-  const double determinant = e.before.area / e.reference_area;
-  e.singular_values = {std::sqrt(determinant * kappa), std::sqrt(determinant / kappa)};
   return e;
 }
 

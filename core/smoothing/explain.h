@@ -77,17 +77,22 @@ struct CornerMove {
   std::uint16_t limits = 0;
 };
 
-/// What a triangle is to the energy before a step, and what the step does to it.
+/// What a triangle is to the energy, at one moment.
+struct TriangleState {
+  double shape = 0, area = 0, energy = 0;  ///< K, S and E
+  TriangleMetrics metrics;
+  std::array<double, 3> angles_deg{};
+  std::array<double, 2> singular_values{};  ///< of A, which maps the reference to the triangle
+};
+
+/// A triangle before and after a step, and what the step does to it.
 struct TriangleExplanation {
   Index triangle = 0;
   bool treated = true;
-  double shape = 0, area = 0, energy = 0;  ///< K, S and E of the record
-  TriangleMetrics before, after;
-  std::array<double, 3> angles_deg{};  ///< before the step
+  TriangleState before, after;  ///< K, S and E before are those of the record
   double reference_area = 0;
   /// The reference triangle in a plane, its first side along x.
   std::array<std::array<double, 2>, 3> reference{};
-  std::array<double, 2> singular_values{};  ///< of A, which maps the reference to the triangle
   std::array<CornerMove, 3> corners;
 };
 

@@ -108,7 +108,7 @@ TEST_F(DebuggerTest, ATriangleShowsItsReferenceAndItsCorners) {
   press(ui::Key::n);
   press(ui::Key::i);
   ASSERT_TRUE(session().selected_triangle);
-  EXPECT_TRUE(editor.interface().state().rects.contains("triangle-pair"));
+  EXPECT_TRUE(editor.interface().state().rects.contains("triangles"));
   keep("inspect_triangle");
   click("corner/1");
   EXPECT_TRUE(session().selected_vertex) << "a corner is a link";
