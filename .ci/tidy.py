@@ -1,8 +1,8 @@
 """Runs clang-tidy over every source of a build folder: tidy.py BUILD-FOLDER.
 
-Most of clang-tidy's time goes into the same headers again and again, so the sources of a target are first looked at
-together, as one translation unit. Files in which that has findings (or does not compile, because two files use a name
-each for itself) are looked at one by one, and only what is found there counts. A clean result is kept in
+Most of clang-tidy's time goes into the same headers again and again, so sources are first looked at together, as one
+translation unit. Files in which that has findings (or does not compile, because two files use a name each for itself)
+are looked at in smaller groups, in the end one by one, and only what is found there counts. A clean result is kept in
 BUILD-FOLDER/tidy and holds until one of the files, the headers they include, the options or the tool changes.
 """
 
@@ -24,7 +24,7 @@ TOGETHER = ("--checks=-bugprone-suspicious-include,-readability-redundant-declar
 
 
 def read_commands(build, root):
-    """Triples (source, target, options): what belongs to one object file, and precompiled headers, are left out of the options."""
+    """Triples (source, folders, options): where headers are searched for, and the rest of what does not belong to one object file."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = Path(entry["file"])
         if not source.is_relative_to(root) or source.is_relative_to(build):
@@ -32,27 +32,32 @@ def read_commands(build, root):
         words = shlex.split(entry["command"])
         while not Path(words[0]).name.startswith(("g++", "c++", "clang++")):
             words.pop(0)
-        target = re.search(r"CMakeFiles/([^/]+)\.dir/", words[words.index("-o") + 1]).group(1)
-        options, skip = [], False
-        for word in words[1:]:
-            if skip:
-                skip = False
-            elif word in ("-o", "-MF", "-MT", "-MQ", "-c", "-include"):
-                skip = True
+        folders, options = [], []
+        words = iter(words[1:])
+        for word in words:
+            if word in ("-o", "-MF", "-MT", "-MQ", "-c", "-include"):
+                next(words)
+            elif word == "-isystem":
+                folders.append((word, next(words)))
+            elif word.startswith("-I"):
+                folders.append(("-I", word[2:]))
             elif word not in ("-MD", "-MMD", "-Winvalid-pch"):
                 options.append(word)
-        yield source, target, tuple(options)
+        yield source, folders, tuple(options)
 
 
 def make_units(build, root):
-    """Groups of sources with the same options."""
+    """Pairs (options, sources): sources whose options differ at most in where headers are searched for."""
     groups = {}
-    for source, target, options in read_commands(build, root):
-        groups.setdefault((target, options), []).append(source)
-    for (target, options), sources in sorted(groups.items()):
+    for source, folders, options in read_commands(build, root):
+        sources, searched = groups.setdefault(options, ([], {}))
+        sources.append(source)
+        searched.update(dict.fromkeys(folders))
+    for options, (sources, searched) in sorted(groups.items()):
         sources.sort()
+        everything = (*options, *(word for folder in sorted(searched) for word in folder))
         for first in range(0, len(sources), FILES_PER_UNIT):
-            yield target, first, options, sources[first : first + FILES_PER_UNIT]
+            yield everything, sources[first : first + FILES_PER_UNIT]
 
 
 class Checker:
@@ -90,27 +95,29 @@ class Checker:
 
     def check(self, unit):
         """Findings of the unit as text; empty when it is clean."""
-        target, first, options, sources = unit
+        options, sources = unit
         key = self.key(options, sources)
         mark = self.cache / f"{key}.clean"
         if key and mark.exists():
             return ""
-        alone, rest = [], sources
-        while len(rest) > 1:
-            together = self.cache / f"{target}_{first}.cpp"
-            together.write_text("".join(f'#include "{source}"\n' for source in rest))
+        findings, groups = [], [sources]
+        while groups:
+            group = groups.pop()
+            if len(group) == 1:
+                clean, text = self.tidy(group[0], options)
+                findings += [] if clean else [text]
+                continue
+            name = hashlib.sha256("".join(map(str, group)).encode()).hexdigest()
+            together = self.cache / f"{name}.cpp"
+            together.write_text("".join(f'#include "{source}"\n' for source in group))
             clean, text = self.tidy(together, options, *TOGETHER)
             if clean:
-                break
-            # Whoever is named is looked at by itself; the others try again without.
+                continue
+            # Whoever is named tries again apart from the others.
             errors = [line for line in text.splitlines() if "error:" in line]
-            named = [source for source in rest if any(line.startswith(f"{source}:") for line in errors)] or rest
-            alone += named
-            rest = [source for source in rest if source not in named]
-        if len(rest) == 1:
-            alone += rest
-        results = [self.tidy(source, options) for source in alone]
-        findings = [text for good, text in results if not good]
+            named = [source for source in group if any(line.startswith(f"{source}:") for line in errors)]
+            rest = [source for source in group if source not in named]
+            groups += [named, rest] if named and rest else [group[::2], group[1::2]]
         if not findings and key:
             mark.touch()
         return "\n".join(findings)
@@ -121,12 +128,12 @@ def main():
     root = Path(__file__).resolve().parent.parent
     checker = Checker(build, root)
     # The biggest first, so that none is left alone at the end.
-    units = sorted(make_units(build, root), key=lambda unit: -len(unit[3]))
+    units = sorted(make_units(build, root), key=lambda unit: -len(unit[1]))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         findings = [text for text in pool.map(checker.check, units) if text]
     for text in findings:
         print(text)
-    print(f"{sum(len(unit[3]) for unit in units)} files looked at, {len(findings)} groups with findings")
+    print(f"{sum(len(unit[1]) for unit in units)} files looked at, {len(findings)} groups with findings")
     return 1 if findings else 0
 
 
