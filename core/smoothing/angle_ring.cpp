@@ -85,11 +85,11 @@ void AngleRing::collect(const Vec3& at, std::vector<Vec3>* gradients) {
   for (const Side& side : sides_) {
     const auto a = angles(side, at, gradients != nullptr ? &g : nullptr);
     for (unsigned k = 0; k < 3; ++k) {
-      scores_.push_back(a[k]);
-      scores_.push_back(obtuse_share_ * (180 - a[k]));
+      scores_.push_back(goal_.of_small(a[k]));
+      scores_.push_back(goal_.of_large(a[k]));
       if (gradients == nullptr) continue;
       gradients->push_back(g[k]);
-      gradients->push_back(-obtuse_share_ * g[k]);
+      gradients->push_back(-goal_.obtuse_weight * g[k]);
     }
   }
 }

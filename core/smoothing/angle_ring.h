@@ -12,10 +12,15 @@ struct AngleRange {
 };
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// What is to be raised: the lesser of the smallest angle and obtuse_share * (180 - the largest).
-inline double angle_score(const AngleRange& r, double obtuse_share) {
-  return std::min(r.min, obtuse_share * (180 - r.max));
-}
+/// What both angles are to get better than: those of the worst triangles at the start. The score of an angle
+/// is the lesser of its two gains, in degrees.
+struct AngleGoal {
+  AngleRange start;
+  double obtuse_weight;  ///< what a degree of a largest angle counts, beside one of a smallest
+
+  [[nodiscard]] double of_small(double angle) const { return angle - start.min; }
+  [[nodiscard]] double of_large(double angle) const { return obtuse_weight * (start.max - angle); }
+};
 
 /// The triangles around one vertex as functions of where it is, its neighbours held.
 class AngleRing {
@@ -29,8 +34,10 @@ class AngleRing {
         spread;  ///< b times the covariance of the scores' gradients: minus the second derivative's main part
   };
 
-  AngleRing(const SmoothingProblem& problem, double obtuse_share)
-      : problem_(problem), obtuse_share_(obtuse_share) {}
+  explicit AngleRing(const SmoothingProblem& problem) : problem_(problem) {}
+
+  /// Scores are those of this goal from now on.
+  void aim_at(const AngleGoal& goal) { goal_ = goal; }
 
   /// Looks at the treated triangles around a vertex from now on.
   void look_at(std::span<const Vec3> positions, Index vertex);
@@ -55,7 +62,7 @@ class AngleRing {
   void collect(const Vec3& at, std::vector<Vec3>* gradients);
 
   const SmoothingProblem& problem_;
-  double obtuse_share_;
+  AngleGoal goal_{};
   std::vector<Index> triangles_;
   std::vector<Side> sides_;
   std::vector<double> scores_;

@@ -20,8 +20,8 @@ struct DeviationLimit {
 struct PolishOptions {
   /// The mean of the triangles' smallest angles falls by no more than this, in degrees.
   double largest_mean_loss = 1;
-  /// What a degree between a largest angle and 180 counts, beside a degree of a smallest angle.
-  double obtuse_share = 0.45;
+  /// What a degree that the largest angle falls counts, beside a degree that the smallest rises.
+  double obtuse_weight = 2;
   unsigned iterations = 300;
 };
 

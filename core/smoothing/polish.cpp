@@ -13,14 +13,14 @@ namespace isorelax {
 namespace {
 
 /// Sharpness of the soft minimum, per degree, stage by stage.
-constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0};
+constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
 /// A stage ends after this many steps, or when in this many in a row no vertex moves by more than kIdleMove
-/// mean edges and the worst score rises by less than kGain degrees.
+/// mean edges and neither of the worst angles gains kGain degrees.
 constexpr unsigned kStageSteps = 60;
 constexpr unsigned kPolishIdleSteps = 5;
 constexpr double kIdleMove = 1e-3;
 constexpr double kGain = 0.005;
-/// Triangles within this many degrees of the worst score are treated; halved where the mean would fall too
+/// Triangles within this many degrees of the worst are treated; halved where the mean would fall too
 /// far, down to the least.
 constexpr double kWindow = 5;
 constexpr double kLeastWindow = 0.5;
@@ -29,13 +29,25 @@ constexpr double kPolishReach = 0.2;
 constexpr unsigned kStepsPerVisit = 2;
 constexpr unsigned kPolishHalvings = 5;
 
+/// Flags of the treated triangles with a vertex that may move: what the others are like is not up to us.
+std::vector<std::uint8_t> triangles_that_move(const SmoothingProblem& problem) {
+  std::vector<std::uint8_t> flags = problem.treated;
+  for (Index t = 0; t < problem.triangle_count(); ++t) {
+    const Triangle& v = problem.triangles[t];
+    if (std::all_of(v.begin(), v.end(), [&](Index i) { return problem.mobility[i] == Mobility::none; }))
+      flags[t] = 0;
+  }
+  return flags;
+}
+
 class PolishSmoother : public Smoother {
  public:
   PolishSmoother(const SmoothingProblem& problem, const PolishOptions& options)
       : problem_(problem),
         options_(options),
-        ring_(problem, options.obtuse_share),
+        ring_(problem),
         objective_(problem),
+        movable_(triangles_that_move(problem)),
         ranges_(problem.triangle_count()) {}
 
   [[nodiscard]] bool descends() const override { return false; }
@@ -60,16 +72,17 @@ class PolishSmoother : public Smoother {
     measure();
     if (started_) return;
     started_ = true;
-    floor_ = worst_;
+    goal_ = {worst_, options_.obtuse_weight};
+    ring_.aim_at(goal_);
     mean_ = mean();
   }
 
-  /// Extreme angles of all treated triangles, and the mesh' worst.
+  /// Extreme angles of all triangles that move, and the worst of them.
   void measure() {
     parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         const Triangle& v = problem_.triangles[t];
-        if (problem_.treated[t] != 0) ranges_[t] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
+        if (movable_[t] != 0) ranges_[t] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
       }
     });
     find_worst();
@@ -78,20 +91,24 @@ class PolishSmoother : public Smoother {
   void find_worst() {
     worst_ = {180, 0};
     for (Index t = 0; t < problem_.triangle_count(); ++t) {
-      if (problem_.treated[t] == 0) continue;
+      if (movable_[t] == 0) continue;
       worst_.min = std::min(worst_.min, ranges_[t].min);
       worst_.max = std::max(worst_.max, ranges_[t].max);
     }
   }
 
-  [[nodiscard]] double score(Index t) const { return angle_score(ranges_[t], options_.obtuse_share); }
-  [[nodiscard]] double worst_score() const { return angle_score(worst_, options_.obtuse_share); }
+  /// How far a triangle is from the worst of the mesh, in the angle in which it is nearer: where the largest
+  /// angle of all can fall no more, the smallest can still rise.
+  [[nodiscard]] double lead(Index t) const {
+    return std::min(goal_.of_small(ranges_[t].min) - goal_.of_small(worst_.min),
+                    goal_.of_large(ranges_[t].max) - goal_.of_large(worst_.max));
+  }
 
   [[nodiscard]] double mean() const {
     double sum = 0;
     std::size_t count = 0;
     for (Index t = 0; t < problem_.triangle_count(); ++t) {
-      if (problem_.treated[t] == 0) continue;
+      if (movable_[t] == 0) continue;
       sum += ranges_[t].min;
       ++count;
     }
@@ -100,17 +117,16 @@ class PolishSmoother : public Smoother {
 
   /// Free vertices of the triangles to be treated, those of the worst triangles first.
   [[nodiscard]] std::vector<Index> vertices_in_order() const {
-    const double level = worst_score() + window_;
-    std::vector<std::pair<double, Index>> scored;
+    std::vector<std::pair<double, Index>> led;
     for (Index t = 0; t < problem_.triangle_count(); ++t) {
-      if (problem_.treated[t] == 0 || score(t) > level) continue;
+      if (movable_[t] == 0 || lead(t) > window_) continue;
       for (const Index v : problem_.triangles[t])
-        if (problem_.mobility[v] != Mobility::none) scored.emplace_back(score(t), v);
+        if (problem_.mobility[v] != Mobility::none) led.emplace_back(lead(t), v);
     }
-    std::sort(scored.begin(), scored.end());
+    std::sort(led.begin(), led.end());
     std::vector<Index> order;
     std::vector<std::uint8_t> seen(problem_.vertex_count(), 0);
-    for (const auto& [score, v] : scored) {
+    for (const auto& [lead, v] : led) {
       if (seen[v] == 0) order.push_back(v);
       seen[v] = 1;
     }
@@ -120,7 +136,7 @@ class PolishSmoother : public Smoother {
   /// Visits all vertices to be treated once. False if that came to nothing, and another stage or fewer
   /// triangles are next.
   bool sweep(std::span<const Vec3> positions) {
-    const double before = worst_score();
+    const AngleRange before = worst_;
     double largest = 0;
     for (const Index v : vertices_in_order()) largest = std::max(largest, visit(v));
     find_worst();
@@ -131,7 +147,8 @@ class PolishSmoother : public Smoother {
       if (window_ < kLeastWindow) stage_ = kSharpness.size();
       return false;
     }
-    const bool idle = largest < kIdleMove * problem_.mean_edge_length && worst_score() < before + kGain;
+    const bool gained = worst_.min > before.min + kGain || worst_.max < before.max - kGain;
+    const bool idle = largest < kIdleMove * problem_.mean_edge_length && !gained;
     idle_ = idle ? idle_ + 1 : 0;
     if (largest > 0 && ++steps_ < kStageSteps && idle_ < kPolishIdleSteps) return true;
     ++stage_;
@@ -184,7 +201,7 @@ class PolishSmoother : public Smoother {
   /// No triangle around the vertex gets worse than the worst of the mesh at the start.
   [[nodiscard]] bool keeps_floor(const Vec3& at) {
     for (const AngleRange& r : ring_.ranges(at))
-      if (r.min < floor_.min || r.max > floor_.max) return false;
+      if (r.min < goal_.start.min || r.max > goal_.start.max) return false;
     return true;
   }
 
@@ -206,11 +223,12 @@ class PolishSmoother : public Smoother {
   PolishOptions options_;
   AngleRing ring_;
   Objective objective_;
+  std::vector<std::uint8_t> movable_;
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
   AngleRange worst_{0, 180};  // of the mesh now
-  AngleRange floor_{0, 180};  // of the mesh at the start
-  double mean_ = 0;           // of the smallest angles at the start
+  AngleGoal goal_{{0, 180}, 1};
+  double mean_ = 0;  // of the smallest angles at the start
   double window_ = kWindow;
   std::size_t stage_ = 0;
   unsigned steps_ = 0, idle_ = 0;

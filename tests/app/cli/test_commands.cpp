@@ -317,7 +317,7 @@ TEST(BenchmarkCommand, PutsThePapersTableBesideOurs) {
   std::vector<std::string> methods;
   for (const Json& row : object["rows"]) methods.push_back(row["method"]);
   EXPECT_EQ(methods, (std::vector<std::string>{"original", "laplacian", "angle_based", "cn", "cnea",
-                                               "converged", "worst_element", "polished"}));
+                                               "converged", "worst_element", "polished", "worst_polished"}));
   EXPECT_EQ(object["rows"][2]["paper_min_angle_deg"], Json::parse("[32.9, 30.9, 29.5, 3.9, null, null]"));
   for (std::size_t mesh = 3; mesh < 6; ++mesh) {
     const auto smallest = [&](std::size_t row) {
@@ -331,6 +331,8 @@ TEST(BenchmarkCommand, PutsThePapersTableBesideOurs) {
     EXPECT_LT(largest(6), largest(1));
     EXPECT_GE(smallest(7), smallest(5));
     EXPECT_LE(largest(7), largest(5));
+    EXPECT_GE(smallest(8), smallest(6));
+    EXPECT_LE(largest(8), largest(6));
   }
   const Outcome text = run_program(paper);
   EXPECT_NE(text.out.find("(36.1)"), std::string::npos) << text.out;
