@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "smoothing/guarded_smoother.h"
@@ -8,6 +9,11 @@ namespace {
 
 /// Share of a proposed step below which what was accepted of it counts as nothing.
 constexpr double kUseless = 0.02;
+/// Share of its proposed move that a vertex must have made, relative to the vertex that made most of its own,
+/// to be moved together with all others again.
+constexpr double kBlockedShare = 0.3;
+/// Steps after which the second level of the preconditioner is made anew.
+constexpr unsigned kCoarseSteps = 10;
 
 class LbfgsSmoother : public GuardedSmoother {
  public:
@@ -16,6 +22,7 @@ class LbfgsSmoother : public GuardedSmoother {
         sweep_(problem),
         memory_(problem.vertex_count(), options.memory, problem.threads),
         tangent_(problem.vertex_count()),
+        wanted_(problem.vertex_count()),
         blocks_(problem.vertex_count()),
         squares_(block_count(problem.vertex_count())) {}
 
@@ -32,20 +39,58 @@ class LbfgsSmoother : public GuardedSmoother {
         blocks_[batch.first + i] = blocks[i];
       }
     });
-    if (!continues()) memory_.start_anew();
-    memory_.arrive(positions, tangent_, kUseless * proposed_);
-    if (!(memory_.direction(tangent_, blocks_, record.displacement) < 0)) {
+    if (!continues()) {
+      memory_.start_anew();
+      proposal_.clear();
+      coarse_.emplace(problem_, here);
+      steps_ = 0;
+    }
+    if (steps_++ % kCoarseSteps == 0) coarse_->refresh(here, blocks_);
+    find_blocked(positions);
+    memory_.arrive(positions, tangent_, wanted_, kUseless * proposed_);
+    find_direction(record);
+    finish_proposal(record);
+    last_.assign(positions.begin(), positions.end());
+    proposal_ = record.displacement;
+    return norm;
+  }
+
+  /// Vertices that could not go where they were sent, because a triangle would have folded, would be sent
+  /// there again, and without them the others' moves do not lead downhill: they go on their own until they
+  /// get free.
+  void find_blocked(std::span<const Vec3> positions) {
+    wanted_ = tangent_;
+    blocked_.clear();
+    if (proposal_.empty()) return;
+    const auto share2 = [&](Index v) {
+      const double asked2 = proposal_[v].squaredNorm();
+      return asked2 > 0 ? (positions[v] - last_[v]).squaredNorm() / asked2 : 0;
+    };
+    double best2 = 0;
+    for (Index v = 0; v < problem_.vertex_count(); ++v) best2 = std::max(best2, share2(v));
+    for (Index v = 0; v < problem_.vertex_count(); ++v) {
+      if (proposal_[v].isZero(0) || share2(v) >= kBlockedShare * kBlockedShare * std::min(best2, 1.0))
+        continue;
+      blocked_.push_back(v);
+      wanted_[v].setZero();
+    }
+  }
+
+  void find_direction(StepRecord& record) {
+    // A memory that was cleared on the way had gone wrong: one step in which every vertex sees only its own.
+    CoarseCorrection* coarse = memory_.empty() && steps_ > 1 ? nullptr : &*coarse_;
+    if (!(memory_.direction(wanted_, blocks_, coarse, record.displacement) < 0)) {
       // The remembered curvature pointed uphill: the preconditioned gradient never does.
       memory_.clear();
-      memory_.direction(tangent_, blocks_, record.displacement);
+      memory_.direction(wanted_, blocks_, nullptr, record.displacement);
     }
-    finish_proposal(record);
-    return norm;
   }
 
   void finish_proposal(StepRecord& record) {
     // The preconditioner alone overshoots where neighbours move at once.
-    const double factor = memory_.empty() ? NewtonOptions{}.relaxation : 1;
+    const double alone = NewtonOptions{}.relaxation;
+    for (const Index v : blocked_) record.displacement[v] = -alone * blocks_[v].solve(tangent_[v]);
+    const double factor = memory_.empty() ? alone : 1;
     parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
       double squares = 0;
       for (std::size_t v = begin; v < end; ++v) {
@@ -61,7 +106,12 @@ class LbfgsSmoother : public GuardedSmoother {
 
   TangentSweep sweep_;
   LbfgsMemory memory_;
-  Field tangent_;
+  std::optional<CoarseCorrection> coarse_;
+  unsigned steps_ = 0;
+  Field tangent_, wanted_;  // the gradient, and its part at vertices that are not blocked
+  Field proposal_;          // the last step as proposed
+  std::vector<Vec3> last_;  // where it started
+  std::vector<Index> blocked_;
   std::vector<NewtonBlock> blocks_;
   std::vector<double> squares_;
   double proposed_ = 0;  // length of the last step as proposed

@@ -26,7 +26,8 @@ void LbfgsMemory::reduce(std::size_t count, const Body& body) {
   for (std::size_t i = 0; i < partials_.size(); ++i) totals_[i % count] += partials_[i];
 }
 
-void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient, double useless) {
+void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient, const Field& wanted,
+                         double useless) {
   if (last_positions_.empty()) {
     last_positions_.assign(positions.begin(), positions.end());
     last_gradient_ = gradient;
@@ -47,7 +48,7 @@ void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient,
       last_positions_[v] = positions[v];
       last_gradient_[v] = gradient[v];
       own[0] += made.move[v].dot(made.change[v]);
-      own[1] += made.move[v].dot(gradient[v]);
+      own[1] += made.move[v].dot(wanted[v]);
       own[2] += made.move[v].squaredNorm();
       own[3] += made.change[v].squaredNorm();
     }
@@ -56,7 +57,7 @@ void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient,
       double change = 0, along = 0;
       for (std::size_t v = begin; v < end; ++v) {
         change += move[v].dot(made.change[v]);
-        along += move[v].dot(gradient[v]);
+        along += move[v].dot(wanted[v]);
       }
       sums[2 * k] = change;
       sums[2 * k + 1] = along;
@@ -77,7 +78,8 @@ void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient,
   }
 }
 
-double LbfgsMemory::direction(const Field& gradient, std::span<const NewtonBlock> blocks, Field& direction) {
+double LbfgsMemory::direction(const Field& wanted, std::span<const NewtonBlock> blocks,
+                              CoarseCorrection* coarse, Field& direction) {
   const std::size_t n = used_.size();
   std::vector<double> alpha(n), share(n);
   for (std::size_t k = n; k-- > 0;) {
@@ -85,13 +87,19 @@ double LbfgsMemory::direction(const Field& gradient, std::span<const NewtonBlock
     for (std::size_t j = k + 1; j < n; ++j) along -= alpha[j] * pair(k).with_changes[used_[j]];
     alpha[k] = along / pair(k).with_changes[used_[k]];
   }
-  reduce(n, [&](std::size_t begin, std::size_t end, double* sums) {
-    std::copy(gradient.begin() + begin, gradient.begin() + end, direction.begin() + begin);
+  parallel_for_blocks(vertices_, threads_, [&](std::size_t begin, std::size_t end) {
+    std::copy(wanted.begin() + begin, wanted.begin() + end, direction.begin() + begin);
     for (std::size_t k = n; k-- > 0;) {
       const Field& change = slots_[used_[k]].change;
       for (std::size_t v = begin; v < end; ++v) direction[v] -= alpha[k] * change[v];
     }
-    for (std::size_t v = begin; v < end; ++v) direction[v] = blocks[v].solve(direction[v]);
+  });
+  if (coarse) coarse->solve(direction, blocks);
+  reduce(n, [&](std::size_t begin, std::size_t end, double* sums) {
+    for (std::size_t v = begin; v < end; ++v) {
+      direction[v] = blocks[v].solve(direction[v]);
+      if (coarse) direction[v] += coarse->at(static_cast<Index>(v), blocks[v]);
+    }
     for (std::size_t k = 0; k < n; ++k) {
       const Field& change = slots_[used_[k]].change;
       for (std::size_t v = begin; v < end; ++v) sums[k] += change[v].dot(direction[v]);
@@ -109,7 +117,7 @@ double LbfgsMemory::direction(const Field& gradient, std::span<const NewtonBlock
     }
     for (std::size_t v = begin; v < end; ++v) {
       direction[v] = -blocks[v].tangent(direction[v]);
-      sums[0] += direction[v].dot(gradient[v]);
+      sums[0] += direction[v].dot(wanted[v]);
     }
   });
   return totals_[0];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "smoothing/newton_block.h"
+#include "smoothing/coarse_correction.h"
 
 namespace isorelax {
 
@@ -25,15 +25,17 @@ class LbfgsMemory {
     last_positions_.clear();
   }
 
-  /// Tells where the run has come to, and the tangent gradient there. The pair of changes since the last call
-  /// is remembered if the energy curves upward along it; a move shorter than `useless` clears the memory:
-  /// what is remembered does not fit here.
-  void arrive(std::span<const Vec3> positions, const Field& gradient, double useless);
+  /// Tells where the run has come to, the tangent gradient there, and its part that a direction is asked for
+  /// (zero at other vertices). The pair of changes since the last call is remembered if the energy curves
+  /// upward along it; a move shorter than `useless` clears the memory: what is remembered does not fit here.
+  void arrive(std::span<const Vec3> positions, const Field& gradient, const Field& wanted, double useless);
 
-  /// Fills `direction` with minus the inverse Hessian that is remembered times the gradient of `arrive`,
-  /// started from the inverses of `blocks` and brought back to their tangent spaces. Returns its product with
-  /// the gradient: not negative if it does not lead downhill.
-  double direction(const Field& gradient, std::span<const NewtonBlock> blocks, Field& direction);
+  /// Fills `direction` with minus the inverse Hessian that is remembered times the wanted part of the
+  /// gradient of `arrive`, started from the inverses of `blocks` plus, if there is one, of `coarse`, and
+  /// brought back to their tangent spaces. Returns its product with that part: not negative if it does not
+  /// lead downhill.
+  double direction(const Field& wanted, std::span<const NewtonBlock> blocks, CoarseCorrection* coarse,
+                   Field& direction);
 
  private:
   struct Pair {

@@ -6,10 +6,6 @@
 namespace isorelax {
 namespace {
 
-/// Share of the area term's convex part that its second derivative never falls below: keeps a block solvable
-/// where the triangles are so large that the term is concave.
-constexpr double kLeastAreaCurvature = 0.05;
-
 /// Up to eight corners: where the triangle's next and previous vertex are from the corner's own, the tangent
 /// space of that, and what is known of the triangle.
 struct CornerBatch {

@@ -6,6 +6,9 @@ namespace isorelax {
 
 /// E over the sum of its weights, 2 for the best triangle, from which a triangle counts as a sliver.
 inline constexpr double kSliverEnergy = 3;
+/// Share of the area term's convex part that its second derivative never falls below: keeps a block solvable
+/// where the triangles are so large that the term is concave.
+inline constexpr double kLeastAreaCurvature = 0.05;
 
 /// One vertex' tangent Hessian block, made positive definite, ready to be solved with.
 struct NewtonBlock {

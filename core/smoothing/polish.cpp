@@ -160,20 +160,10 @@ class PolishSmoother : public Smoother {
   double visit(Index v) {
     ring_.look_at(x_, v);
     Vec3 at = x_[v];
-    double value = ring_.soft_value(at, kSharpness[stage_]);
-    for (unsigned i = 0; i < kStepsPerVisit; ++i) {
-      Vec3 d = ascent(v, at);
-      bool higher = false;
-      for (unsigned k = 0; k <= kPolishHalvings && !higher; ++k, d *= 0.5) {
-        const Vec3 there = bring_back(problem_, v, at + d);
-        if (!ring_.is_upright(there)) continue;
-        const double raised = ring_.soft_value(there, kSharpness[stage_]);
-        if (!(raised > value) || !keeps_floor(there)) continue;
-        higher = true;
-        at = there;
-        value = raised;
-      }
-      if (!higher) break;
+    // What a blunt minimum asks for may be too bad for the worst triangle: then a sharper one decides.
+    for (std::size_t s = stage_; s < kSharpness.size() && at == x_[v]; ++s) {
+      for (unsigned i = 0; i < kStepsPerVisit; ++i)
+        if (!climb(v, kSharpness[s], at)) break;
     }
     if (at == x_[v]) return 0;
     const double distance = (at - x_[v]).norm();
@@ -183,9 +173,23 @@ class PolishSmoother : public Smoother {
     return distance;
   }
 
+  /// One step of a vertex from `at` to a higher soft minimum. False if there is none.
+  bool climb(Index v, double sharpness, Vec3& at) {
+    const double value = ring_.soft_value(at, sharpness);
+    Vec3 d = ascent(v, at, sharpness);
+    for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
+      const Vec3 there = bring_back(problem_, v, at + d);
+      if (!ring_.is_upright(there)) continue;
+      if (!(ring_.soft_value(there, sharpness) > value) || !keeps_floor(there)) continue;
+      at = there;
+      return true;
+    }
+    return false;
+  }
+
   /// Step in the tangent space towards a higher soft minimum: (spread + |g| / r)^-1 g, no longer than r.
-  [[nodiscard]] Vec3 ascent(Index v, const Vec3& at) {
-    const AngleRing::Soft soft = ring_.soft(at, kSharpness[stage_]);
+  [[nodiscard]] Vec3 ascent(Index v, const Vec3& at, double sharpness) {
+    const AngleRing::Soft soft = ring_.soft(at, sharpness);
     const Vec3 axis = tangent_axis(problem_, x_, v);
     const Vec3 g = tangent_part(problem_.mobility[v], axis, soft.gradient);
     const double slope = g.norm();
