@@ -151,6 +151,27 @@ RunResult run_polish(const SmoothingProblem& problem, std::span<Vec3> positions,
              });
 }
 
+/// Whether both sets of positions surely cover the same part of one plane, so that there is nothing to
+/// measure: all in it but for rounding, the border where it was, no triangle upside down before or after.
+bool covers_the_same(const SmoothingProblem& problem, std::span<const Vec3> before,
+                     std::span<const Vec3> after, std::span<const Index> inverted_before,
+                     std::span<const Index> inverted_after) {
+  constexpr double kRounding = 1e-14;
+  if (!problem.plane_normal || !inverted_before.empty() || !inverted_after.empty()) return false;
+  double low = INFINITY, high = -INFINITY, extent = 0;
+  for (const Triangle& t : problem.triangles) {
+    for (const Index v : t) {
+      if (problem.topology.is_boundary(v) && before[v] != after[v]) return false;
+      extent = std::max(extent, before[v].cwiseAbs().maxCoeff());
+      for (const Vec3& x : {before[v], after[v]}) {
+        low = std::min(low, problem.plane_normal->dot(x));
+        high = std::max(high, problem.plane_normal->dot(x));
+      }
+    }
+  }
+  return high - low <= kRounding * extent;
+}
+
 /// What stays the same from one attempt to the next.
 struct Attempts {
   std::span<const Triangle> triangles;
@@ -185,15 +206,18 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
                               });
     if (attempts.polish && result.run.stopped != StopReason::cancelled)
       result.polish = run_polish(problem, positions, *attempts.polish, result.run.iterations, observer);
-    const DeviationByTriangle deviation =
-        measure_deviation_by_triangle(surface, positions, triangles, problem.topology, options.threads);
-    result.deviation = deviation.whole;
-    std::vector<Index> over;
-    if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
     const std::vector<Index> inverted =
         inverted_triangles(positions, triangles, problem.topology, options.threads);
     if (!inverted_before)
       inverted_before = inverted_triangles(original, triangles, problem.topology, options.threads);
+    std::vector<Index> over;
+    if (!std::ranges::equal(surface, original) ||
+        !covers_the_same(problem, original, positions, *inverted_before, inverted)) {
+      const DeviationByTriangle deviation =
+          measure_deviation_by_triangle(surface, positions, triangles, problem.topology, options.threads);
+      result.deviation = deviation.whole;
+      if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
+    }
     add_vertices_turned_over(over, *inverted_before, inverted, triangles);
     if (over.empty() || result.run.stopped == StopReason::fixed) return result;
 

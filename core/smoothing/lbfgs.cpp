@@ -12,13 +12,15 @@ constexpr double kUseless = 0.02;
 /// Share of its proposed move that a vertex must have made, relative to the vertex that made most of its own,
 /// to be moved together with all others again.
 constexpr double kBlockedShare = 0.3;
-/// Steps after which the second level of the preconditioner is made anew.
-constexpr unsigned kCoarseSteps = 10;
+/// Steps after which the second level of the preconditioner is made anew, and the Newton blocks too where no
+/// tangent space changes.
+constexpr unsigned kPreconditionerSteps = 10;
 
 class LbfgsSmoother : public GuardedSmoother {
  public:
   LbfgsSmoother(const SmoothingProblem& problem, const LbfgsOptions& options)
       : GuardedSmoother(problem, options.detail),
+        in_fixed_planes_(problem.plane_normal && problem.border.empty()),
         sweep_(problem),
         memory_(problem.vertex_count(), options.memory, problem.threads),
         tangent_(problem.vertex_count()),
@@ -31,13 +33,15 @@ class LbfgsSmoother : public GuardedSmoother {
   [[nodiscard]] bool cuts_all_alike() const override { return !memory_.empty(); }
 
   double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) override {
+    const bool keeps_blocks = continues() && in_fixed_planes_ && steps_ % kPreconditionerSteps != 0;
     const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {
-      const auto blocks = newton_blocks(problem_, here, batch);
       for (unsigned i = 0; i < batch.count; ++i) {
         record.gradient[batch.first + i] = batch.sums[i].gradient;
         tangent_[batch.first + i] = batch.gradients[i];
-        blocks_[batch.first + i] = blocks[i];
       }
+      if (keeps_blocks) return;
+      const auto blocks = newton_blocks(problem_, here, batch);
+      for (unsigned i = 0; i < batch.count; ++i) blocks_[batch.first + i] = blocks[i];
     });
     if (!continues()) {
       memory_.start_anew();
@@ -45,7 +49,7 @@ class LbfgsSmoother : public GuardedSmoother {
       coarse_.emplace(problem_, here);
       steps_ = 0;
     }
-    if (steps_++ % kCoarseSteps == 0) coarse_->refresh(here, blocks_);
+    if (steps_++ % kPreconditionerSteps == 0) coarse_->refresh(here, blocks_);
     find_blocked(positions);
     memory_.arrive(positions, tangent_, wanted_, kUseless * proposed_);
     find_direction(record);
@@ -104,6 +108,7 @@ class LbfgsSmoother : public GuardedSmoother {
     proposed_ = std::sqrt(squares);
   }
 
+  bool in_fixed_planes_;  // no tangent space changes
   TangentSweep sweep_;
   LbfgsMemory memory_;
   std::optional<CoarseCorrection> coarse_;
