@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/motion_options.h"
 #include "cli/motion_pictures.h"
 #include "cli/motion_series.h"
 #include "cli/table.h"
@@ -163,12 +164,9 @@ class AdvectCommand : public Command {
       throw InputError((folder / "run.json").string(), "", error.what());
     }
     MotionSpec spec;
-    CLI::App app;
-    spec.declare(app);
-    std::ranges::reverse(words);  // CLI11 takes them from the back
     try {
-      app.parse(words);
-    } catch (const CLI::ParseError& error) {
+      spec.read(words);
+    } catch (const UsageError& error) {
       throw InputError((folder / "run.json").string(), "",
                        std::string("options not understood: ") + error.what());
     }

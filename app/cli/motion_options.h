@@ -1,11 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "motion/dense_copy.h"
-#include "motion/moving_surface.h"
+#include "motion/motion_choices.h"
 
 namespace CLI {
 class App;
@@ -15,25 +13,6 @@ class Option;
 namespace isorelax::cli {
 
 class Console;
-
-/// A sphere to start from.
-struct SphereStart {
-  std::size_t vertices = 5832;
-  double radius = 0.15;
-  Vec3 centre = Vec3(0.5, 0.75, 0.5);
-};
-/// N[:RADIUS[:X,Y,Z]]. Throws UsageError.
-[[nodiscard]] SphereStart parse_sphere(const std::string& text);
-[[nodiscard]] TriangleMesh make_sphere(const SphereStart& sphere);
-
-/// Everything that decides how a surface moves, ready to run.
-struct MotionSetup {
-  TriangleMesh start;
-  std::optional<SphereStart> sphere;  ///< where the start is one
-  Motion motion;
-  MovingSurfaceOptions options;
-  double until = 0;
-};
 
 /// The options that decide how a surface moves, as typed. The same words do the same again.
 class MotionSpec {
@@ -46,18 +25,14 @@ class MotionSpec {
   void declare(CLI::App& app);
   /// The typed ones as words, for a later run.
   [[nodiscard]] std::vector<std::string> words() const;
+  /// Takes words over. Throws UsageError.
+  void read(const std::vector<std::string>& words) { read_words(words, choices_); }
   /// Reads files that are named. `input`: the mesh; empty for a sphere. Throws UsageError, InputError.
   [[nodiscard]] MotionSetup set_up(Console& console, const std::string& input) const;
 
  private:
-  [[nodiscard]] MovingSurfaceOptions parse_options(Console& console) const;
-
-  CLI::App* app_ = nullptr;
   std::vector<const CLI::Option*> options_;
-  std::string sphere_, field_ = "paper", preset_ = "balanced";
-  std::string method_, redistribute_, solver_, reference_ = "initial", volume_;
-  double until_ = 0, step_ = 0.01, tolerance_ = 0, mu_ = 0.5, only_below_ = 0;
-  unsigned every_ = 1, iterations_ = 0, threads_ = 0;
+  MotionChoices choices_;
 };
 
 }  // namespace isorelax::cli

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/json.h"
-#include "cli/motion_run.h"
+#include "motion/motion_run.h"
 
 namespace isorelax::cli {
 

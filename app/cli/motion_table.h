@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/motion_run.h"
+#include "motion/motion_run.h"
 
 namespace isorelax::cli {
 

@@ -7,6 +7,7 @@
 #include "cli/mesh_input.h"
 #include "cli/vertex_files.h"
 #include "mesh/error.h"
+#include "motion/motion_choices.h"
 
 namespace isorelax::cli {
 namespace {
@@ -96,16 +97,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
 }
 
 ReferenceChoice parse_reference(Console& console, const std::string& text) {
-  if (text == "equilateral") return MeanAreaReference{};
-  if (text == "initial") return InitialReference{};
-  constexpr std::string_view kEdge = "equilateral:";
-  if (text.starts_with(kEdge)) {
-    const auto edge = parse_number(std::string_view(text).substr(kEdge.size()));
-    if (!edge || !(*edge > 0))
-      throw UsageError("--reference " + text + ": expected a positive edge length after the colon");
-    return EdgeLengthReference{*edge};
-  }
-  return MeshReference{read_input(console, text).positions};
+  std::vector<std::string> notes;
+  ReferenceChoice reference = read_reference(text, notes);
+  for (const std::string& note : notes) console.message(note);
+  return reference;
 }
 
 FeatureOptions parse_features(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -42,9 +43,9 @@ class Expression::Pool {
       bound->parser.DefineConst("e", std::numbers::e);
       bound->parser.SetExpr(text_);
       static_cast<void>(bound->parser.Eval());
-      if (bound->parser.GetNumResults() != 1) throw UsageError(text_ + ": expected one expression");
+      if (bound->parser.GetNumResults() != 1) throw ExpressionError(text_, 1, "expected one expression");
     } catch (const mu::ParserError& error) {
-      throw UsageError(text_ + ": column " + std::to_string(error.GetPos() + 1) + ": " + error.GetMsg());
+      throw ExpressionError(text_, static_cast<std::size_t>(std::max(0, error.GetPos())) + 1, error.GetMsg());
     }
     return bound;
   }

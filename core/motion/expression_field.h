@@ -8,11 +8,26 @@
 
 namespace isorelax {
 
+/// An expression that cannot be read, and where: what() is the text, the column and the reason.
+class ExpressionError : public UsageError {
+ public:
+  ExpressionError(const std::string& text, std::size_t column, const std::string& reason)
+      : UsageError(text + ": column " + std::to_string(column) + ": " + reason),
+        column_(column),
+        reason_(reason) {}
+  [[nodiscard]] std::size_t column() const { return column_; }  ///< from 1
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::size_t column_;
+  std::string reason_;
+};
+
 /// A number given by an expression in x, y, z and t (muParser: + - * / ^, comparisons, ?:, sin, cos, tan,
 /// exp, ln, sqrt, abs, min, max ..., the constants pi and e).
 class Expression {
  public:
-  /// Throws UsageError: the text, the column and what is wrong there.
+  /// Throws ExpressionError.
   explicit Expression(const std::string& text);
   ~Expression();
   Expression(Expression&& other) noexcept;

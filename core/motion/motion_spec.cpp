@@ -9,8 +9,6 @@
 namespace isorelax {
 namespace {
 
-constexpr double kPaperPeriod = 3;
-
 std::optional<double> plain_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -36,18 +34,8 @@ Vec3 vector_in(std::string_view text, std::string_view whole) {
   return vector;
 }
 
-Motion reversing(std::string_view name, std::string_view rest, std::string_view whole) {
-  const double period = rest.empty() ? kPaperPeriod : number_in(rest, whole);
-  if (!(period > 0)) throw UsageError(std::string(whole) + ": the period is not positive");
-  Motion motion;
-  motion.field = name == "paper" ? make_paper_field(period) : make_enright_field(period);
-  motion.keeps_volume = true;
-  motion.period = period;
-  return motion;
-}
-
-Motion rigid(std::string_view rest, std::string_view whole) {
-  RigidMotion rigid;
+void read_rigid(std::string_view rest, std::string_view whole, RigidMotion& rigid) {
+  rigid = {};
   // The sign of an exponent or of a number is no separator.
   std::size_t plus = rest.find('+');
   while (plus != std::string_view::npos && plus > 0 &&
@@ -62,64 +50,141 @@ Motion rigid(std::string_view rest, std::string_view whole) {
     rest = rest.substr(0, at);
   }
   rigid.rotation = vector_in(rest, whole);
-  Motion motion;
-  motion.field = make_rigid_field(rigid);
-  motion.keeps_volume = true;
-  return motion;
 }
 
-Motion along_normal(std::string_view rest) {
-  Motion motion;
-  if (const auto constant = plain_number(rest)) {
-    motion.constant_speed = constant;
-    motion.speed = [value = *constant](const Vec3&, double) { return value; };
-    return motion;
-  }
-  const auto speed = std::make_shared<Expression>(std::string(rest));
-  motion.speed = [speed](const Vec3& x, double t) { return speed->at(x, t); };
-  return motion;
-}
-
-Motion expressions(std::string_view rest, std::string_view whole) {
-  std::array<std::string, 3> parts;
+void read_expressions(std::string_view rest, std::string_view whole, std::array<std::string, 3>& parts) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t end = i < 2 ? rest.find(';') : rest.size();
-    if (end == std::string_view::npos || rest.substr(0, end).empty())
+    if (end == std::string_view::npos)
       throw UsageError(std::string(whole) + ": expected three expressions separated by semicolons");
     parts[i] = rest.substr(0, end);
     rest.remove_prefix(std::min(rest.size(), end + 1));
   }
+}
+
+std::string shortest_text(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string vector_text(const Vec3& v) {
+  return shortest_text(v[0]) + "," + shortest_text(v[1]) + "," + shortest_text(v[2]);
+}
+
+std::string rigid_text(const RigidMotion& rigid) {
+  std::string text = "rigid:" + vector_text(rigid.rotation);
+  if (rigid.centre != Vec3::Zero()) text += "@" + vector_text(rigid.centre);
+  if (rigid.velocity != Vec3::Zero()) text += "+" + vector_text(rigid.velocity);
+  return text;
+}
+
+Motion along_normal(const std::string& text) {
   Motion motion;
-  motion.field = make_expression_field(parts);
+  if (const auto constant = plain_number(text)) {
+    motion.constant_speed = constant;
+    motion.speed = [value = *constant](const Vec3&, double) { return value; };
+    return motion;
+  }
+  const auto speed = std::make_shared<Expression>(text);
+  motion.speed = [speed](const Vec3& x, double t) { return speed->at(x, t); };
   return motion;
 }
 
 }  // namespace
 
-Motion parse_motion(std::string_view text) {
+FieldSpec parse_field(std::string_view text, const FieldSpec& others) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::string_view name = text.substr(0, colon);
   const std::string_view rest = text.substr(std::min(text.size(), colon + 1));
-  if (name == "paper" || name == "enright") return reversing(name, rest, text);
-  if (name == "rigid") return rigid(rest, text);
-  if (name == "shear") {
-    ShearMotion shear;
-    shear.rate = rest.empty() ? 1 : number_in(rest, text);
-    Motion motion;
-    motion.field = make_shear_field(shear);
-    motion.keeps_volume = true;
-    return motion;
+  FieldSpec spec = others;
+  if (name == "paper" || name == "enright") {
+    spec.kind = name == "paper" ? FieldKind::paper : FieldKind::enright;
+    spec.period = rest.empty() ? FieldSpec{}.period : number_in(rest, text);
+    if (!(spec.period > 0)) throw UsageError(std::string(text) + ": the period is not positive");
+  } else if (name == "rigid") {
+    spec.kind = FieldKind::rigid;
+    read_rigid(rest, text, spec.rigid);
+  } else if (name == "shear") {
+    spec.kind = FieldKind::shear;
+    spec.rate = rest.empty() ? FieldSpec{}.rate : number_in(rest, text);
+  } else if (name == "normal" && colon < text.size()) {
+    spec.kind = FieldKind::normal;
+    spec.speed = rest;
+  } else if (name == "expr") {
+    spec.kind = FieldKind::expressions;
+    read_expressions(rest, text, spec.expressions);
+  } else if (name == "file" && colon < text.size()) {
+    spec.kind = FieldKind::file;
+    spec.path = rest;
+  } else {
+    throw UsageError(std::string(text) +
+                     ": expected paper[:T], enright[:T], rigid:WX,WY,WZ[@CX,CY,CZ][+VX,VY,VZ], shear:RATE, "
+                     "normal:SPEED, expr:U;V;W or file:PATH");
   }
-  if (name == "normal" && !rest.empty()) return along_normal(rest);
-  if (name == "expr") return expressions(rest, text);
-  if (name == "file" && !rest.empty()) {
-    Motion motion;
-    motion.field = read_sampled_field(std::string(rest));
-    return motion;
+  return spec;
+}
+
+std::string to_text(const FieldSpec& spec) {
+  switch (spec.kind) {
+    case FieldKind::paper:
+      return "paper:" + shortest_text(spec.period);
+    case FieldKind::enright:
+      return "enright:" + shortest_text(spec.period);
+    case FieldKind::rigid:
+      return rigid_text(spec.rigid);
+    case FieldKind::shear:
+      return "shear:" + shortest_text(spec.rate);
+    case FieldKind::normal:
+      return "normal:" + spec.speed;
+    case FieldKind::expressions:
+      return "expr:" + spec.expressions[0] + ";" + spec.expressions[1] + ";" + spec.expressions[2];
+    case FieldKind::file:
+      break;
   }
-  throw UsageError(std::string(text) +
-                   ": expected paper[:T], enright[:T], rigid:WX,WY,WZ[@CX,CY,CZ][+VX,VY,VZ], shear:RATE, "
-                   "normal:SPEED, expr:U;V;W or file:PATH");
+  return "file:" + spec.path;
+}
+
+Motion make_motion(const FieldSpec& spec) {
+  Motion motion;
+  switch (spec.kind) {
+    case FieldKind::paper:
+    case FieldKind::enright:
+      motion.field =
+          spec.kind == FieldKind::paper ? make_paper_field(spec.period) : make_enright_field(spec.period);
+      motion.keeps_volume = true;
+      motion.period = spec.period;
+      break;
+    case FieldKind::rigid:
+      motion.field = make_rigid_field(spec.rigid);
+      motion.keeps_volume = true;
+      break;
+    case FieldKind::shear: {
+      ShearMotion shear;
+      shear.rate = spec.rate;
+      motion.field = make_shear_field(shear);
+      motion.keeps_volume = true;
+      break;
+    }
+    case FieldKind::normal:
+      if (spec.speed.empty()) throw UsageError("normal: no speed is given");
+      return along_normal(spec.speed);
+    case FieldKind::expressions:
+      for (const std::string& part : spec.expressions)
+        if (part.empty())
+          throw UsageError(to_text(spec) + ": expected three expressions separated by semicolons");
+      motion.field = make_expression_field(spec.expressions);
+      break;
+    case FieldKind::file:
+      if (spec.path.empty()) throw UsageError("file: no sampled field was chosen");
+      motion.field = read_sampled_field(spec.path);
+      break;
+  }
+  return motion;
+}
+
+Motion parse_motion(std::string_view text) {
+  return make_motion(parse_field(text));
 }
 
 }  // namespace isorelax

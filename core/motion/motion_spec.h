@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,14 +20,35 @@ struct Motion {
   std::optional<double> period;          ///< everything is back where it was after this time
 };
 
-/// Reads a motion from text:
+/// What a motion can be; `FieldSpec` holds the numbers of each.
+enum class FieldKind : std::uint8_t { paper, enright, rigid, shear, normal, expressions, file };
+
+/// A motion as it is asked for, not yet made: texts may still hold mistakes. Those of the other kinds keep
+/// their values, so that nothing typed is lost when another kind is chosen.
+struct FieldSpec {
+  FieldKind kind = FieldKind::paper;
+  double period = 3;           ///< of paper and enright
+  RigidMotion rigid;           ///< of rigid
+  double rate = 1;             ///< of shear
+  std::string speed = "0.05";  ///< of normal: a number or an expression
+  std::array<std::string, 3> expressions{"-(y-0.5)", "x-0.5", "0"};
+  std::string path;  ///< of file
+};
+
+/// Takes the text of a motion apart:
 ///   paper[:T]  enright[:T]                  T defaults to 3
 ///   rigid:WX,WY,WZ[@CX,CY,CZ][+VX,VY,VZ]    angular velocity, centre, velocity
 ///   shear:RATE                              u = RATE y along x
 ///   normal:EXPRESSION                       speed along the normal, in x, y, z, t
 ///   expr:U;V;W                              three expressions in x, y, z, t
 ///   file:PATH                               see read_sampled_field
+/// Expressions and files are not looked into. Throws UsageError.
+[[nodiscard]] FieldSpec parse_field(std::string_view text, const FieldSpec& others = {});
+/// The inverse.
+[[nodiscard]] std::string to_text(const FieldSpec& spec);
 /// Throws UsageError, InputError.
+[[nodiscard]] Motion make_motion(const FieldSpec& spec);
+/// Both in one.
 [[nodiscard]] Motion parse_motion(std::string_view text);
 
 }  // namespace isorelax

@@ -1,11 +1,11 @@
-#include "cli/motion_run.h"
+#include "motion/motion_run.h"
 
 #include <chrono>
 #include <cmath>
 
 #include "surface/deviation.h"
 
-namespace isorelax::cli {
+namespace isorelax {
 namespace {
 
 SurfacePlacement placement_of(const MotionSetup& setup) {
@@ -91,4 +91,4 @@ MotionEntry MotionRun::measure(Detail detail) const {
   return entry;
 }
 
-}  // namespace isorelax::cli
+}  // namespace isorelax

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 
-#include "cli/motion_options.h"
+#include "motion/dense_copy.h"
+#include "motion/motion_choices.h"
 #include "motion/motion_measure.h"
 
-namespace isorelax::cli {
+namespace isorelax {
 
 /// What is known about a moving mesh after one step.
 struct MotionEntry {
@@ -52,4 +52,4 @@ class MotionRun {
   double seconds_ = 0;
 };
 
-}  // namespace isorelax::cli
+}  // namespace isorelax
