@@ -27,11 +27,30 @@ struct SetView {
   ViewSettings view;
 };
 /// Runs the set number of iterations, or what a paused run has left.
-struct Run {};
+struct Run {
+  unsigned steps = 0;  ///< of a moving surface; 0: to its end
+};
 /// Stops the run after the iteration that it is in; Run continues.
 struct Pause {};
 /// One iteration.
 struct Step {};
+/// Says whether Run smooths or moves. Whoever begins to move sees areas, unless the colours were chosen.
+struct SetTask {
+  Task task = Task::smooth;
+};
+/// Replaces what decides how a surface moves, and turns to moving. `label` names the change for Undo.
+struct SetMotion {
+  MotionChoices motion;
+  std::string label;
+};
+/// Opens a sphere in place of the document.
+struct OpenSphere {
+  SphereStart sphere;
+};
+/// Turns to moving and makes so many steps; 0: to its end.
+struct Move {
+  unsigned steps = 0;
+};
 /// Back to the positions of the file.
 struct Reset {};
 /// One iteration back on the timeline.
@@ -117,11 +136,12 @@ struct SetRecent {
 /// Takes over what the worker has published. Never waits.
 struct Collect {};
 
-using Command = std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset,
-                             StepBack, Undo, Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine,
-                             Say, SetRecent, Collect, Seek, SetStage, StepStage, SelectVertex, SelectTriangle,
-                             SelectLimited, SetWorstBy, TogglePin, SetBreakpoints, SetStepBudget,
-                             ShowBranches, CompareBranches, Teach, SaveTrace, OpenTrace, AddTrace>;
+using Command =
+    std::variant<OpenFile, SaveFile, SetSmoothing, EndEdit, SetView, Run, Pause, Step, Reset, StepBack, Undo,
+                 Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine, Say, SetRecent, Collect,
+                 Seek, SetStage, StepStage, SelectVertex, SelectTriangle, SelectLimited, SetWorstBy,
+                 TogglePin, SetBreakpoints, SetStepBudget, ShowBranches, CompareBranches, Teach, SaveTrace,
+                 OpenTrace, AddTrace, SetTask, SetMotion, OpenSphere, Move>;
 
 /// The only writer of a session. Returns at once: long work goes to the session's worker, and its results
 /// come with a later Collect. Throws nothing; what cannot be done becomes a message.
@@ -130,7 +150,7 @@ void execute(Session& session, const Command& command);
 /// Executes Collect until the worker is idle: for tests and for pictures without a window.
 void finish(Session& session);
 
-/// `isorelax smooth` with the session's file and settings, quoted for a shell.
+/// `isorelax smooth`, or `isorelax advect`, with the session's file and settings, quoted for a shell.
 [[nodiscard]] std::string command_line(const Session& session);
 
 }  // namespace isorelax::model

@@ -17,10 +17,24 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string motion_line(const Session& session) {
+  const Document& document = *session.document;
+  MotionChoices motion = session.motion;
+  std::string line = "isorelax advect";
+  if (document.sphere)
+    motion.sphere = document.sphere;
+  else
+    line += " " + quoted(document.path.string());
+  line += " -o " + quoted(document.path.stem().string() + "-moved");
+  for (const std::string& word : to_words(motion)) line += " " + quoted(word);
+  return line;
+}
+
 }  // namespace
 
 std::string command_line(const Session& session) {
   if (!session.document) return {};
+  if (session.task == Task::move) return motion_line(session);
   auto output = session.document->path;
   output.replace_filename(output.stem().string() + "-smooth" + output.extension().string());
   std::string line =

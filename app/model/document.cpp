@@ -35,13 +35,29 @@ std::vector<std::uint8_t> mark_boundary(const Topology& topology) {
 
 }  // namespace
 
-DocumentPtr make_document(std::filesystem::path path, MeshFile file) {
+namespace {
+
+std::shared_ptr<Document> complete(std::filesystem::path path, MeshFile file) {
   auto document = std::make_shared<Document>();
   document->path = std::move(path);
   document->file = std::move(file);
   document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
   document->plane_normal = find_plane(document->mesh());
   document->boundary_marks = mark_boundary(document->topology);
+  return document;
+}
+
+}  // namespace
+
+DocumentPtr make_document(std::filesystem::path path, MeshFile file) {
+  return complete(std::move(path), std::move(file));
+}
+
+DocumentPtr make_document(const SphereStart& sphere) {
+  MeshFile file;
+  file.mesh = make_sphere(sphere);
+  auto document = complete("sphere-" + std::to_string(sphere.vertices) + ".ply", std::move(file));
+  document->sphere = sphere;
   return document;
 }
 

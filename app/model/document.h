@@ -10,6 +10,7 @@
 #include "io/mesh_file.h"
 #include "mesh/topology.h"
 #include "mesh/triangle_mesh.h"
+#include "motion/motion_choices.h"
 
 namespace isorelax::model {
 
@@ -22,6 +23,8 @@ struct Document {
   std::optional<Vec3> plane_normal;
   /// Per triangle: bit k is set where the edge opposite corner k has no other triangle.
   std::vector<std::uint8_t> boundary_marks;
+  /// Of a sphere that was made here and is in no file.
+  std::optional<SphereStart> sphere;
 
   [[nodiscard]] const TriangleMesh& mesh() const { return file.mesh; }
 };
@@ -29,6 +32,9 @@ using DocumentPtr = std::shared_ptr<const Document>;
 
 /// The document of a mesh that is there already.
 [[nodiscard]] DocumentPtr make_document(std::filesystem::path path, MeshFile file);
+
+/// A sphere.
+[[nodiscard]] DocumentPtr make_document(const SphereStart& sphere);
 
 /// Reads a mesh file. Throws InputError.
 [[nodiscard]] DocumentPtr read_document(const std::filesystem::path& path);

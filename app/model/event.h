@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,6 +10,7 @@
 
 #include "model/breakpoint.h"
 #include "model/mesh_state.h"
+#include "motion/motion_run.h"
 #include "smoothing/explain.h"
 #include "smoothing/run.h"
 #include "trace/trace_diff.h"
@@ -70,6 +72,49 @@ struct Iterated {
 struct RunEnded {
   RunResult result;
   std::string broken_by;  ///< the predicate that ended it; empty: none
+};
+/// Holds nothing.
+inline constexpr ValueRange kNoRange{std::numeric_limits<double>::infinity(),
+                                     -std::numeric_limits<double>::infinity()};
+/// A moving surface took one or more steps; `state` is the newest measured one, or null.
+struct Moved {
+  std::vector<MotionEntry> moments;
+  std::vector<IterationRow> rows;  ///< one for each moment
+  std::vector<StepSummary> steps;  ///< the same without that of the start
+  /// Smallest and largest area over the mean, and energy, over all of these moments.
+  ValueRange areas = kNoRange, energies = kNoRange;
+  MeshStatePtr state;
+  std::vector<BreakHit> hits;
+};
+/// It ended; its last state came before.
+struct MotionEnded {
+  unsigned steps = 0;  ///< that were made
+  bool cancelled = false;
+  std::string broken_by;  ///< the predicate that ended it; empty: none
+};
+/// A vertex of a moving surface in the step that led to what is shown.
+struct MovingVertex {
+  Index vertex = 0;
+  Vec3 before = Vec3::Zero(), after = Vec3::Zero();
+  Vec3 by_motion = Vec3::Zero();          ///< where the motion alone would have taken it from `before`
+  Vec3 by_redistribution = Vec3::Zero();  ///< the rest
+};
+/// A triangle of a moving surface as it stands, against its reference.
+struct MovingTriangle {
+  TriangleExplanation now;  ///< its corners' moves are those of the step that led there
+  double area_start = 0;    ///< at the start of the motion, squared length units
+};
+struct MotionInspected {
+  std::uint64_t number = 0;  ///< of the request
+  std::optional<MovingVertex> vertex;
+  std::optional<MovingTriangle> triangle;
+  std::string unknown;  ///< why a triangle cannot be measured against its reference
+};
+/// How far a vertex has come along its way, over the steps of a moving surface: entry k after k steps.
+struct MovingPath {
+  unsigned branch = 0;
+  Index vertex = 0;
+  std::vector<double> by_motion, by_redistribution, distance;  ///< length units; distance: from its start
 };
 /// Another iteration is shown; `others` are those of the branches beside it.
 struct Sought {
@@ -137,6 +182,7 @@ struct Wrote {
 };
 
 using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, Saved, Failed, RunFailed, Sought,
-                           Inspected, Followed, TraceOpened, Compared, Wrote, Scanned>;
+                           Inspected, Followed, TraceOpened, Compared, Wrote, Scanned, Moved, MotionEnded,
+                           MotionInspected, MovingPath>;
 
 }  // namespace isorelax::model

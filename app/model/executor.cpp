@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kMessagesKept = 100;
 constexpr std::size_t kRecentKept = 12;
 
-std::string count_label(unsigned iterations) {
-  return iterations == 1 ? "1 iteration" : std::to_string(iterations) + " iterations";
+std::string count_label(unsigned count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 ValueRange united(const ValueRange& a, const ValueRange& b) {
@@ -73,12 +73,18 @@ void Executor::operator()(const SetView& command) {
   if (reasons) ask_about_step();
 }
 
-void Executor::operator()(const Run& /*command*/) {
-  start_run(s_.remaining > 0 ? s_.remaining : s_.smoothing.iterations);
+void Executor::operator()(const Run& command) {
+  if (s_.task == Task::move)
+    start_motion(command.steps);
+  else
+    start_run(s_.remaining > 0 ? s_.remaining : s_.smoothing.iterations);
 }
 
 void Executor::operator()(const Step& /*command*/) {
-  start_run(1);
+  if (s_.task == Task::move)
+    start_motion(1);
+  else
+    start_run(1);
 }
 
 void Executor::operator()(const Pause& /*command*/) {
@@ -101,17 +107,9 @@ void Executor::start_run(unsigned iterations) {
     return;
   }
   if (s_.activity != Activity::idle || iterations == 0) return;
-  if (run_over_recorded(iterations)) return;
-  s_.run_start_ = s_.current;
-  s_.rows_at_start_ = s_.history;
-  s_.cursor_at_start_ = s_.timeline.cursor;
-  s_.run_iterations_ = iterations;
-  s_.last_run.reset();
-  s_.broken_by.clear();
-  s_.inspection = {};
+  if (refuses_to_smooth() || run_over_recorded(iterations)) return;
+  prepare_run(iterations);
   begin_branch();
-  s_.timeline.cursor.stage.reset();
-  s_.activity = Activity::running;
   // A new series starts where this one will: the plots need its first point.
   if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
     const QualityReport& q = s_.current->quality();
@@ -123,13 +121,36 @@ void Executor::start_run(unsigned iterations) {
                                  s_.step_budget}));
 }
 
+// A smoother keeps to the mesh as opened; a surface that has moved is another one.
+bool Executor::refuses_to_smooth() {
+  const Branch* branch = s_.moving();
+  if (branch == nullptr || s_.timeline.cursor.iteration == branch->start) return false;
+  say(MessageKind::info,
+      "Smoothing keeps to the mesh as opened, which this surface has left: go to its start, or save this "
+      "state and open it.");
+  return true;
+}
+
+void Executor::prepare_run(unsigned iterations) {
+  s_.run_start_ = s_.current;
+  s_.rows_at_start_ = s_.history;
+  s_.cursor_at_start_ = s_.timeline.cursor;
+  s_.run_iterations_ = iterations;
+  s_.last_run.reset();
+  s_.broken_by.clear();
+  s_.inspection = {};
+  s_.timeline.cursor.stage.reset();
+  s_.activity = Activity::running;
+}
+
 void Executor::end_run() {
   const bool was_running = s_.is_running();
   s_.activity = Activity::idle;
   if (was_running && s_.run_start_ && s_.run_start_->geometry != s_.current->geometry) {
     const unsigned done = s_.current->iteration - s_.run_start_->iteration;
-    s_.undo.push({count_label(done), PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_),
-                                                     s_.history, s_.cursor_at_start_, s_.timeline.cursor}});
+    s_.undo.push({count_label(done, s_.moving() != nullptr ? "step" : "iteration"),
+                  PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_), s_.history,
+                                  s_.cursor_at_start_, s_.timeline.cursor}});
   }
   if (was_running) drop_empty_branch();
   s_.run_start_.reset();
@@ -139,75 +160,9 @@ void Executor::end_run() {
   go_on_when_idle();
 }
 
-void Executor::operator()(const Reset& command) {
-  if (!s_.current) return;
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  if (s_.seeking_) {
-    s_.when_idle_.push_back([command](Session& s) { execute(s, command); });
-    return;
-  }
-  if (s_.activity != Activity::idle || s_.current->geometry == s_.original->geometry) return;
-  Cursor start = s_.timeline.cursor;
-  start.iteration = 0;
-  start.stage.reset();
-  PositionsChange change{s_.current, s_.original, std::move(s_.history), {}, s_.timeline.cursor, start};
-  if (s_.original->energy) {
-    const QualityReport& q = s_.original->quality();
-    change.rows_after.push_back(
-        {0, s_.original->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
-  }
-  s_.history = change.rows_after;
-  s_.undo.push({"Reset", std::move(change)});
-  s_.current = s_.original;
-  s_.timeline.cursor = start;
-  s_.last_step.reset();
-  s_.last_run.reset();
-  s_.remaining = 0;
-  ask_about_step();
-}
-
-void Executor::operator()(const StepBack& /*command*/) {
-  if (!s_.current) return;
-  if (s_.timeline.cursor.iteration > 0)
-    (*this)(Seek{s_.timeline.cursor.iteration - 1, {}});
-  else
-    say(MessageKind::info, "There is no earlier iteration to go back to.");
-}
-
-void Executor::operator()(const Undo& command) {
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  if (s_.activity != Activity::idle || s_.seeking_ || s_.undo.next_undo() == nullptr) return;
-  apply(*s_.undo.next_undo(), false);
-  s_.undo.undone();
-}
-
-void Executor::operator()(const Redo& /*command*/) {
-  if (s_.activity != Activity::idle || s_.seeking_ || s_.undo.next_redo() == nullptr) return;
-  apply(*s_.undo.next_redo(), true);
-  s_.undo.redone();
-}
-
-void Executor::apply(const UndoEntry& entry, bool forward) {
-  if (const auto* settings = std::get_if<SettingsChange>(&entry.change)) {
-    s_.smoothing = forward ? settings->after : settings->before;
-  } else {
-    const auto& positions = std::get<PositionsChange>(entry.change);
-    s_.current = forward ? positions.after : positions.before;
-    s_.history = forward ? positions.rows_after : positions.rows_before;
-    s_.timeline.cursor = forward ? positions.cursor_after : positions.cursor_before;
-    s_.inspection.step.reset();
-    s_.last_step.reset();
-    s_.last_run.reset();
-  }
-  s_.remaining = 0;
-  measure_energy_if_changed();
-  ask_about_step();
-  say(MessageKind::info, (forward ? "Redone: " : "Undone: ") + entry.label);
-}
-
 // Asks the worker for the energies under the present settings where a state has those of other ones.
 void Executor::measure_energy_if_changed() {
-  if (!s_.current) return;
+  if (!s_.current || s_.moving() != nullptr) return;
   const auto stale = [&](const MeshStatePtr& state) {
     return !state->energy || !same_energy(state->energy->settings, s_.smoothing);
   };
@@ -251,7 +206,8 @@ void Executor::remember_recent(const std::filesystem::path& path) {
 void Executor::show(const MeshStatePtr& state) {
   s_.current = state;
   for (const Coloring c : kMeasured) {
-    if (state->values(c).empty()) continue;
+    // The energy of a moving surface is another one, and has a range of its own.
+    if (state->values(c).empty() || (c == Coloring::energy && s_.moving() != nullptr)) continue;
     ValueRange& range = s_.run_range[static_cast<std::size_t>(c)];
     range = united(range, state->range(c));
   }
@@ -277,7 +233,7 @@ void Executor::operator()(Loaded& event) {
     s_.history.push_back({0, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
   }
   s_.activity = Activity::idle;
-  remember_recent(s_.document->path);
+  if (!s_.document->sphere) remember_recent(s_.document->path);
   for (const std::string& note : s_.notes) say(MessageKind::warning, note);
   // Settings may have changed while the file was read.
   if (s_.current->energy) measure_energy_if_changed();
@@ -340,6 +296,7 @@ void Executor::operator()(RunEnded& event) {
 void Executor::operator()(RunFailed& event) {
   say(MessageKind::error, event.text);
   s_.remaining = 0;
+  if (s_.moving() != nullptr) s_.timeline.branches[s_.timeline.cursor.branch].ended = event.text;
   end_run();
 }
 
@@ -375,6 +332,10 @@ ValueRange Session::color_range() const {
   const auto index = static_cast<std::size_t>(view.coloring);
   switch (view.range_mode) {
     case RangeMode::run:
+      if (const Branch* branch = moving()) {
+        if (view.coloring == Coloring::relative_area) return branch->areas;
+        if (view.coloring == Coloring::energy) return branch->energies;
+      }
       return run_range[index];
     case RangeMode::current:
       return current ? current->range(view.coloring) : ValueRange{};

@@ -45,6 +45,10 @@ class Executor {
   void operator()(const SaveTrace& command);
   void operator()(const OpenTrace& command);
   void operator()(const AddTrace& command);
+  void operator()(const SetTask& command);
+  void operator()(const SetMotion& command);
+  void operator()(const OpenSphere& command);
+  void operator()(const Move& command);
 
   void operator()(Loaded& event);
   void operator()(EnergyMeasured& event);
@@ -60,10 +64,23 @@ class Executor {
   void operator()(Compared& event);
   void operator()(Wrote& event);
   void operator()(Scanned& event);
+  void operator()(Moved& event);
+  void operator()(MotionEnded& event);
+  void operator()(MotionInspected& event);
+  void operator()(MovingPath& event);
 
  private:
   void say(MessageKind kind, std::string text);
   void start_run(unsigned iterations);
+  void prepare_run(unsigned iterations);
+  void start_motion(unsigned steps);
+  bool move_over_recorded(unsigned steps);
+  void begin_motion();
+  void turn_to(Task task);
+  [[nodiscard]] bool refuses_to_smooth();
+  [[nodiscard]] unsigned iteration_beside(unsigned branch) const;
+  [[nodiscard]] std::optional<unsigned> branch_shown_at_start() const;
+  void ask_about_motion();
   void end_run();
   bool wait_for_run(std::function<void(Session&)> then);
   void go_on_when_idle();

@@ -9,9 +9,16 @@ namespace {
 
 constexpr std::size_t kHitsKept = 1000;
 constexpr std::size_t kMostBeside = 3;
+constexpr const char* kNoStages = "Steps of a moving surface have no stages.";
 
 bool any_active(const std::vector<Breakpoint>& points) {
   return std::ranges::any_of(points, [](const Breakpoint& p) { return p.enabled && p.predicate; });
+}
+
+MeshStatePtr with_geometry(const MeshStatePtr& state, std::shared_ptr<const Geometry> geometry) {
+  auto changed = std::make_shared<MeshState>(*state);
+  changed->geometry = std::move(geometry);
+  return changed;
 }
 
 bool has_converged(const RunResult& result) {
@@ -22,7 +29,10 @@ bool has_converged(const RunResult& result) {
 
 bool Session::continues_branch() const {
   const Branch* branch = timeline.current();
-  return branch != nullptr && branch->not_redone.empty() && same_steps(branch->settings, smoothing) &&
+  if (branch == nullptr || branch->motion.has_value() != (task == Task::move)) return false;
+  if (branch->motion)
+    return same_motion(*branch->motion, motion) && timeline.cursor.iteration >= branch->start;
+  return branch->not_redone.empty() && same_steps(branch->settings, smoothing) &&
          timeline.cursor.iteration >= branch->start &&
          (!branch->from_file || timeline.cursor.iteration < branch->tip());
 }
@@ -73,7 +83,8 @@ bool Executor::run_over_recorded(unsigned iterations) {
     s_.broken_by.clear();
     s_.engine.post("run", scan_job({s_.document, branch.settings, branch.recording, at, branch.start, from,
                                     to, s_.breakpoints}));
-    s_.scan_rest_ = ended ? 0 : rest;
+    s_.after_scan_ = nullptr;
+    if (rest > 0 && !ended) s_.after_scan_ = [rest](Session& s) { Executor(s).start_run(rest); };
     s_.scan_to_ = to;
     return true;
   }
@@ -95,8 +106,8 @@ void Executor::operator()(Scanned& event) {
   seek(s_.timeline.cursor.branch, event.stop.value_or(s_.scan_to_));
   if (!event.broken_by.empty())
     say(MessageKind::info, "Stopped at iteration " + std::to_string(*event.stop) + ": " + event.broken_by);
-  if (!event.stop && s_.scan_rest_ > 0)
-    s_.when_idle_.push_back([rest = s_.scan_rest_](Session& s) { Executor(s).start_run(rest); });
+  auto then = std::exchange(s_.after_scan_, nullptr);
+  if (!event.stop && then) s_.when_idle_.push_back(std::move(then));
 }
 
 // Runs go on with the present branch at its end; everywhere else, or with other settings, they begin one.
@@ -106,8 +117,8 @@ void Executor::begin_branch() {
   Branch branch;
   branch.settings = s_.smoothing;
   branch.start = timeline.cursor.iteration;
-  if (!timeline.empty()) branch.parent = timeline.cursor.branch;
-  branch.name = branch_name(s_.smoothing, timeline.current());
+  branch.parent = branch_shown_at_start();
+  branch.name = branch_name(s_.smoothing, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
   branch.recording = std::make_shared<Recording>();
   if (s_.current->energy && same_energy(s_.current->energy->settings, s_.smoothing)) {
     const QualityReport& q = s_.current->quality();
@@ -119,12 +130,26 @@ void Executor::begin_branch() {
   timeline.branches.push_back(std::move(branch));
 }
 
+/// The branch that holds the shown iteration, where a moving surface begins the one that led to it.
+std::optional<unsigned> Executor::branch_shown_at_start() const {
+  const Timeline& timeline = s_.timeline;
+  if (timeline.empty()) return std::nullopt;
+  std::optional<unsigned> at = timeline.cursor.branch;
+  while (at && timeline.branches[*at].motion && timeline.cursor.iteration <= timeline.branches[*at].start)
+    at = timeline.branches[*at].parent;
+  return at;
+}
+
 void Executor::drop_empty_branch() {
   Timeline& timeline = s_.timeline;
   if (timeline.empty() || !timeline.branches.back().steps.empty()) return;
   const unsigned dropped = static_cast<unsigned>(timeline.branches.size()) - 1;
   if (timeline.cursor.branch == dropped) timeline.cursor.branch = timeline.branches.back().parent.value_or(0);
   std::erase(s_.shown_branches, dropped);
+  if (timeline.branches.back().motion) {  // its first step failed: as if it had not begun
+    s_.history = s_.rows_at_start_;
+    if (s_.run_start_) s_.current = s_.run_start_;
+  }
   timeline.branches.pop_back();
 }
 
@@ -139,7 +164,7 @@ void Executor::seek(unsigned branch, unsigned iteration) {
   s_.seek_number_ = ++s_.request_count_;
   SeekRequest request{s_.seek_number_, s_.document, s_.smoothing, place_of(branch, iteration), iteration, {}};
   for (const unsigned other : s_.shown_branches)
-    request.others.push_back(place_of(other, std::min(iteration, timeline.branches[other].tip())));
+    request.others.push_back(place_of(other, iteration_beside(other)));
   s_.engine.post("seek", seek_job(std::move(request)));
 }
 
@@ -154,6 +179,9 @@ void Executor::operator()(const Seek& command) {
   if (branch == timeline.cursor.branch && iteration == timeline.cursor.iteration && !s_.seeking_) return;
   // Another branch brings its settings: Run goes on with it.
   if (branch != timeline.cursor.branch) {
+    const auto& motion = timeline.branches[branch].motion;
+    s_.task = motion ? Task::move : Task::smooth;
+    if (motion) s_.motion = *motion;
     SmoothingSettings settings = timeline.branches[branch].settings;
     settings.iterations = s_.smoothing.iterations;
     s_.smoothing = settings;
@@ -167,7 +195,7 @@ void Executor::operator()(Sought& event) {
   if (event.state->positions().size() != s_.original->positions().size()) return;
   if (s_.timeline.cursor.iteration == 0 && event.state->iteration == 0 &&
       std::ranges::equal(event.state->positions(), s_.original->positions()))
-    show(s_.original);
+    show(s_.moving() != nullptr ? with_geometry(event.state, s_.original->geometry) : s_.original);
   else
     show(event.state);
   s_.other_states = std::move(event.others);
@@ -181,12 +209,20 @@ void Executor::operator()(Sought& event) {
 
 void Executor::operator()(const SetStage& command) {
   if (!s_.current) return;
+  if (command.stage && s_.moving() != nullptr) {
+    say(MessageKind::info, kNoStages);
+    return;
+  }
   s_.timeline.cursor.stage = command.stage;
   ask_about_step();
 }
 
 void Executor::operator()(const StepStage& command) {
   if (!s_.current || s_.is_running()) return;
+  if (s_.moving() != nullptr) {
+    say(MessageKind::info, kNoStages);
+    return;
+  }
   Cursor& cursor = s_.timeline.cursor;
   const StepSummary* step = s_.timeline.step(cursor.branch, cursor.iteration);
   std::vector<Stage> stages = stages_of(step != nullptr ? step->fold_passes + step->energy_passes : 0);
@@ -213,6 +249,7 @@ void Executor::operator()(const StepStage& command) {
 
 // Asks the worker for the record of the shown step, and for what is selected in it.
 void Executor::ask_about_step() {
+  if (s_.moving() != nullptr) return ask_about_motion();
   const bool wanted =
       s_.selected_vertex || s_.selected_triangle || s_.timeline.cursor.stage || s_.view.reasons;
   if (!s_.current || s_.is_running() || s_.seeking_ || !wanted) return;
@@ -251,7 +288,7 @@ void Executor::operator()(Inspected& event) {
 }
 
 void Executor::follow_selection() {
-  if (!s_.selected_vertex || s_.timeline.empty() || s_.is_running()) return;
+  if (!s_.selected_vertex || s_.timeline.empty() || s_.is_running() || s_.moving() != nullptr) return;
   const unsigned branch = s_.timeline.cursor.branch;
   const unsigned last = s_.timeline.last();
   const auto& path = s_.inspection.path;
@@ -290,7 +327,8 @@ void Executor::operator()(const ShowBranches& command) {
 
 // One method after the other from the same iteration; then all of them side by side.
 void Executor::operator()(const Teach& /*command*/) {
-  if (!s_.can_smooth()) return;
+  if (!s_.can_smooth() || refuses_to_smooth()) return;
+  turn_to(Task::smooth);
   const Cursor from = s_.timeline.cursor;
   const SmoothingSettings settings = s_.smoothing;
   s_.taught_.clear();

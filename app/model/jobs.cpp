@@ -125,29 +125,47 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
 
 }  // namespace
 
+namespace {
+
+/// Measures a document that was made and shows it: Loaded. The workbench forgets the one before.
+void publish_loaded(const JobContext& context, DocumentPtr document, const SmoothingSettings& settings) {
+  const std::string name = document->path.filename().string();
+  const std::string cancelled = document->path.string() + ": opening was cancelled";
+  Loaded loaded;
+  loaded.document = std::move(document);
+  if (context.cancelled()) throw Error(cancelled);
+  context.progress("Measuring " + name, -1);
+  auto state = std::make_shared<MeshState>();
+  state->geometry = measure_geometry(*loaded.document, loaded.document->mesh().positions);
+  loaded.notes = loaded.document->file.messages;
+  if (context.cancelled()) throw Error(cancelled);
+  context.bench().forget();
+  // A mesh that cannot be smoothed can still be looked at.
+  try {
+    const Workbench::ProblemPtr problem = context.bench().problem(loaded.document, settings);
+    state->energy = measure_energy(*problem, settings, state->positions());
+    loaded.notes.insert(loaded.notes.end(), problem->notes.begin(), problem->notes.end());
+  } catch (const Error& error) {
+    loaded.notes.emplace_back(error.what());
+  }
+  loaded.state = std::move(state);
+  context.publish(std::move(loaded));
+}
+
+}  // namespace
+
+Engine::Job sphere_job(const SphereStart& sphere, SmoothingSettings settings) {
+  return [sphere, settings = std::move(settings)](const JobContext& context) {
+    context.progress("Making a sphere", -1);
+    publish_loaded(context, make_document(sphere), settings);
+  };
+}
+
 Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings) {
   return [path = std::move(path), settings = std::move(settings)](JobContext& context) {
     context.progress("Opening " + path.filename().string(), -1);
     if (is_trace(path)) return open_trace_job(path, {})(context);
-    Loaded loaded;
-    loaded.document = read_document(path);
-    if (context.cancelled()) throw Error(path.string() + ": opening was cancelled");
-    context.progress("Measuring " + path.filename().string(), -1);
-    auto state = std::make_shared<MeshState>();
-    state->geometry = measure_geometry(*loaded.document, loaded.document->mesh().positions);
-    loaded.notes = loaded.document->file.messages;
-    if (context.cancelled()) throw Error(path.string() + ": opening was cancelled");
-    context.bench().forget();
-    // A mesh that cannot be smoothed can still be looked at.
-    try {
-      const Workbench::ProblemPtr problem = context.bench().problem(loaded.document, settings);
-      state->energy = measure_energy(*problem, settings, state->positions());
-      loaded.notes.insert(loaded.notes.end(), problem->notes.begin(), problem->notes.end());
-    } catch (const Error& error) {
-      loaded.notes.emplace_back(error.what());
-    }
-    loaded.state = std::move(state);
-    context.publish(std::move(loaded));
+    publish_loaded(context, read_document(path), settings);
   };
 }
 

@@ -10,6 +10,9 @@ namespace isorelax::model {
 /// Opens a file: Loaded or Failed.
 [[nodiscard]] Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings);
 
+/// Opens a sphere: Loaded.
+[[nodiscard]] Engine::Job sphere_job(const SphereStart& sphere, SmoothingSettings settings);
+
 /// Measures the energy of two states under new settings: EnergyMeasured or Failed.
 [[nodiscard]] Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr original,
                                      MeshStatePtr current);

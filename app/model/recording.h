@@ -6,9 +6,19 @@
 #include <optional>
 
 #include "model/mesh_state.h"
+#include "motion/motion_run.h"
 #include "trace/recorder.h"
 
 namespace isorelax::model {
+
+/// How the recorded steps of a moving surface are made and measured. Belongs to the worker.
+struct MotionTrack {
+  MotionSetup setup;
+  MovingState tip;                 ///< after the last recorded step
+  std::unique_ptr<MotionRun> run;  ///< in that state; null while another one is being made
+  /// What its triangles are measured by: the motion's reference. Null where the start cannot be.
+  std::unique_ptr<const SmoothingProblem> measured_by;
+};
 
 /// The iterations of one branch, in core/trace's form: positions as deltas, and a few whole ones in between
 /// so that any iteration is near one. Belongs to the worker: no other thread touches what is in it.
@@ -33,6 +43,8 @@ class Recording {
 
   /// The iterations from which a smoother started that knew nothing of the steps before, ascending.
   [[nodiscard]] const std::vector<unsigned>& fresh_starts() const { return fresh_starts_; }
+  /// Null for iterations of a smoother.
+  std::shared_ptr<MotionTrack> motion;
   void note_fresh_start() { fresh_starts_.push_back(size()); }
 
  private:

@@ -44,6 +44,12 @@ inline constexpr std::size_t kWorstBy = 10;
 /// "smallest angle", ...: for people.
 [[nodiscard]] std::string_view title(WorstBy by);
 
+/// What Run does.
+enum class Task : std::uint8_t {
+  smooth,  ///< iterations of a smoother
+  move,    ///< steps of a motion
+};
+
 /// What is known about the step that is looked at.
 struct Inspection {
   std::optional<StepView> step;
@@ -51,6 +57,11 @@ struct Inspection {
   std::optional<TriangleExplanation> triangle;
   std::optional<VertexPath> path;
   std::optional<GradientCheck> check;  ///< of all vertices; none for large meshes, where it takes too long
+  // Of a moving surface.
+  std::optional<MovingVertex> moving_vertex;
+  std::optional<MovingTriangle> moving_triangle;
+  std::optional<MovingPath> moving_path;
+  std::string unknown;  ///< why a triangle is not measured against its reference
 };
 
 /// The only state of the program: the open document, settings, results, history. Everything else shows it.
@@ -65,7 +76,9 @@ struct Session {
   /// Where the document was saved last; none until it was.
   std::optional<std::filesystem::path> save_path;
 
+  Task task = Task::smooth;
   SmoothingSettings smoothing;
+  MotionChoices motion;
   ViewSettings view;
 
   Activity activity = Activity::idle;
@@ -114,6 +127,10 @@ struct Session {
   /// Whether a run from here goes on with the present branch, or over what is recorded of it; else it begins
   /// a branch.
   [[nodiscard]] bool continues_branch() const;
+  /// The moving surface that is shown; null while it is the mesh as opened or smoothed.
+  [[nodiscard]] const Branch* moving() const;
+  /// What is known about the shown moment of it. Precondition: moving().
+  [[nodiscard]] const MotionEntry& moment() const;
   /// The ends of the colour scale under the view's range mode.
   [[nodiscard]] ValueRange color_range() const;
 
@@ -124,7 +141,8 @@ struct Session {
   unsigned run_iterations_ = 0;
   Cursor cursor_at_start_;
   std::vector<Cursor> taught_;  // where Teach has come to
-  unsigned scan_to_ = 0, scan_rest_ = 0;
+  unsigned scan_to_ = 0;
+  std::function<void(Session&)> after_scan_;  // where no breakpoint stopped it
   bool seeking_ = false;
   std::uint64_t request_count_ = 0;
   std::uint64_t inspect_number_ = 0, seek_number_ = 0;

@@ -70,6 +70,20 @@ std::string branch_name(const SmoothingSettings& settings, const Branch* parent)
   return text.data();
 }
 
+bool same_motion(const MotionChoices& a, const MotionChoices& b) {
+  return to_words(a) == to_words(b);
+}
+
+std::string_view title(FieldKind kind) {
+  constexpr std::array<std::string_view, 7> kTitles{
+      "Eq. (10)", "Enright", "Rigid motion", "Shear", "Along the normal", "Expressions", "Sampled file"};
+  return kTitles.at(static_cast<std::size_t>(kind));
+}
+
+std::string branch_name(const MotionChoices& motion) {
+  return std::string(title(motion.field.kind)) + ", " + motion.preset;
+}
+
 std::vector<Stage> stages_of(std::size_t passes) {
   std::vector<Stage> stages{{StageKind::gradient}, {StageKind::tangent}, {StageKind::proposed}};
   for (unsigned pass = 0; pass < passes; ++pass) stages.push_back({StageKind::control, pass});

@@ -52,6 +52,11 @@ struct Branch {
   /// Why its steps cannot be done again, for a trace made with options that the editor does not know.
   std::string not_redone;
   std::shared_ptr<Recording> recording;  ///< for the worker
+  // Of a moving surface; its steps are made with `motion`, and `settings` take no part.
+  std::optional<MotionChoices> motion;     ///< none: iterations of a smoother
+  double until = 0;                        ///< time at which it ends
+  std::vector<MotionEntry> moments;        ///< of iterations start, ..., tip()
+  ValueRange areas{1, 1}, energies{2, 2};  ///< extremes over all moments
 
   [[nodiscard]] unsigned tip() const { return start + static_cast<unsigned>(steps.size()); }
 };
@@ -81,6 +86,14 @@ struct Timeline {
 
 /// What a branch is called: its method, or what it does otherwise than the one it left.
 [[nodiscard]] std::string branch_name(const SmoothingSettings& settings, const Branch* parent);
+
+/// Whether both make the same steps.
+[[nodiscard]] bool same_motion(const MotionChoices& a, const MotionChoices& b);
+
+/// What a moving surface is called: its motion and its preset.
+[[nodiscard]] std::string branch_name(const MotionChoices& motion);
+/// "Eq. (10)", "Rigid motion", ...: a title for people.
+[[nodiscard]] std::string_view title(FieldKind kind);
 
 /// Stages of a step with so many rounds of control, in order.
 [[nodiscard]] std::vector<Stage> stages_of(std::size_t passes);

@@ -35,6 +35,11 @@ MeshStatePtr state_at(const JobContext& context, const SeekRequest& request, con
     state->geometry = measure_geometry(*request.document, positions_of(*request.document, place));
     bench.note_geometry(place.recording.get(), place.iteration, state->geometry);
   }
+  if (place.recording && place.recording->motion) {
+    if (const auto& problem = place.recording->motion->measured_by)
+      state->energy = measure_energy(*problem, request.settings, state->positions());
+    return state;
+  }
   try {
     state->energy = measure_energy(*bench.problem(request.document, request.settings), request.settings,
                                    state->positions());

@@ -1,19 +1,30 @@
 #include "model/undo.h"
 
 #include <set>
+#include <utility>
 
 namespace isorelax::model {
+namespace {
+
+/// Makes two changes of a kind one; false where they are not of this kind.
+template <typename Change>
+bool merge(UndoEntry& into, UndoEntry& from) {
+  auto* last = std::get_if<Change>(&into.change);
+  auto* next = std::get_if<Change>(&from.change);
+  if (last == nullptr || next == nullptr) return false;
+  last->after = std::move(next->after);
+  return true;
+}
+
+}  // namespace
 
 void UndoList::push(UndoEntry entry) {
   entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(position_), entries_.end());
-  auto* settings = std::get_if<SettingsChange>(&entry.change);
-  if (settings != nullptr && merging_ && !entries_.empty() && entries_.back().label == entry.label) {
-    if (auto* last = std::get_if<SettingsChange>(&entries_.back().change)) {
-      last->after = settings->after;
-      return;
-    }
-  }
-  merging_ = settings != nullptr;
+  const bool may_merge = merging_ && !entries_.empty() && entries_.back().label == entry.label;
+  if (may_merge &&
+      (merge<SettingsChange>(entries_.back(), entry) || merge<MotionChange>(entries_.back(), entry)))
+    return;
+  merging_ = !std::holds_alternative<PositionsChange>(entry.change);
   entries_.push_back(std::move(entry));
   position_ = entries_.size();
   forget_oldest();

@@ -22,9 +22,14 @@ struct PositionsChange {
   Cursor cursor_before{}, cursor_after{};
 };
 
+/// A change of what moves a surface.
+struct MotionChange {
+  MotionChoices before, after;
+};
+
 struct UndoEntry {
   std::string label;  ///< "20 iterations", "Reset", "mu_A": what Undo takes back
-  std::variant<SettingsChange, PositionsChange> change;
+  std::variant<SettingsChange, PositionsChange, MotionChange> change;
 };
 
 /// What can be undone and redone, in the order in which it was done. Settings and positions are entries of

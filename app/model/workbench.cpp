@@ -105,7 +105,19 @@ Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettin
   return *smoother_;
 }
 
+MotionRun& Workbench::motion_run(const std::shared_ptr<MotionTrack>& track) {
+  if (moved_ && moved_ != track) moved_->run.reset();
+  moved_ = track;
+  if (!track->run) {
+    auto run = std::make_unique<MotionRun>(track->setup, 0);
+    if (track->tip.step > 0) run->restore(track->tip);
+    track->run = std::move(run);
+  }
+  return *track->run;
+}
+
 void Workbench::forget() {
+  moved_.reset();
   problems_.clear();
   smoother_.reset();
   smoothed_.reset();

@@ -28,6 +28,10 @@ class Workbench {
   /// The smoother has made the recording's last step.
   void went_on(const Recording& recording) { at_ = recording.size(); }
 
+  /// The run of a moving surface in the state of its last recorded step: the one that made it, or a new one.
+  /// Throws Error.
+  MotionRun& motion_run(const std::shared_ptr<MotionTrack>& track);
+
   /// Another document, or the same one read again, is open: nothing kept is good any more.
   void forget();
 
@@ -48,6 +52,7 @@ class Workbench {
   std::unique_ptr<Smoother> smoother_;
   const Recording* recording_ = nullptr;  // whose last step the smoother made
   unsigned at_ = 0;                       // how many steps that had
+  std::shared_ptr<MotionTrack> moved_;    // whose run is kept
   StepStore steps_;
   std::map<std::pair<const Recording*, unsigned>, std::weak_ptr<const Geometry>> geometries_;
 };

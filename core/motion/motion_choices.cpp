@@ -230,6 +230,12 @@ std::vector<std::string> to_words(const MotionChoices& choices) {
   return words;
 }
 
+double end_time(const MotionChoices& choices) {
+  const FieldSpec& field = choices.field;
+  const bool returns = field.kind == FieldKind::paper || field.kind == FieldKind::enright;
+  return choices.until.value_or(returns ? field.period : 1);
+}
+
 ReferenceChoice read_reference(const std::string& word, std::vector<std::string>& notes) {
   if (word == "equilateral") return MeanAreaReference{};
   if (word == "initial") return InitialReference{};
@@ -274,7 +280,7 @@ MotionSetup set_up_motion(const MotionChoices& choices, std::optional<TriangleMe
   setup.options = motion_options_of(choices, notes);
   if (!setup.motion.field && setup.options.tolerance)
     throw UsageError("--tolerance is for velocity fields: motion along normals takes fixed steps");
-  setup.until = choices.until.value_or(setup.motion.period.value_or(1));
+  setup.until = end_time(choices);
   if (start) {
     setup.start = std::move(*start);
   } else {

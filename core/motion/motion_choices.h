@@ -59,6 +59,9 @@ void read_words(std::span<const std::string> words, MotionChoices& choices);
 /// What is not as by default, as words of a command line.
 [[nodiscard]] std::vector<std::string> to_words(const MotionChoices& choices);
 
+/// The time at which it ends: as asked for, else the field's period, else 1.
+[[nodiscard]] double end_time(const MotionChoices& choices);
+
 /// Everything that decides how a surface moves, ready to run.
 struct MotionSetup {
   TriangleMesh start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +35,8 @@ struct Moment {
   std::span<const Triangle> triangles;
   std::size_t inverted_at_start = 0;
   bool stop = false;  ///< the run ends with this iteration
+  /// Of a moving surface; not a number otherwise: comparisons with it are false.
+  double time = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A condition on the iterations of a run, such as

@@ -21,6 +21,7 @@ TriangleMetrics metrics(const Moment& m, Index t) {
 
 constexpr PredicateName kNames[] = {
     {"iteration", "number of the iteration, from 1", [](const Moment& m) { return count(m.iteration); }},
+    {"time", "time of a moving surface", [](const Moment& m) { return m.time; }},
     {"min_angle", "smallest angle of the mesh, degrees",
      [](const Moment& m) { return m.numbers.quality.min_angle_deg; }},
     {"max_angle", "largest angle, degrees", [](const Moment& m) { return m.numbers.quality.max_angle_deg; }},
