@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "editor/editor.h"
 #include "editor/script_words.h"
 #include "mesh/error.h"
+#include "model/motion_jobs.h"
 #include "render/offscreen.h"
 #include "render/picture_size.h"
 #include "trace/predicate.h"
@@ -132,6 +134,11 @@ class Player {
       execute(model::Run{});
       return;
     }
+    if (editor_.session().task == model::Task::move) {
+      const std::array<std::string, 3> move{"motion", "run", words[1]};
+      execute(*parse_line(move, editor_.session(), folder_));
+      return;
+    }
     const std::array<std::string, 3> set{"set", "--iterations", words[1]};
     execute(*parse_line(set, editor_.session(), folder_));
     execute(model::Run{});
@@ -209,6 +216,7 @@ class Player {
   // Predicates may ask for the arrays of the step: looking inside it brings them.
   std::string fault_of(const Predicate& predicate) {
     model::Session& session = editor_.session();
+    if (session.moving() != nullptr) return fault_of_motion(predicate);
     const auto stage = session.timeline.cursor.stage;
     if (session.timeline.cursor.iteration == 0) return "there is no step to iteration 0 to look at";
     if (!stage) execute(model::SetStage{model::Stage{}});
@@ -237,6 +245,28 @@ class Player {
     const bool holds = predicate.holds(now);
     if (!stage) execute(model::SetStage{});
     return holds ? std::string() : "does not hold: " + predicate.text();
+  }
+
+  // What is known of a moment; of the way of single vertices in the step nothing is.
+  std::string fault_of_motion(const Predicate& predicate) {
+    const model::Session& session = editor_.session();
+    const auto positions = session.current->positions();
+    const QualityReport& quality = session.current->quality();
+    TraceIteration numbers;
+    numbers.quality = {quality.min_angle_deg, quality.max_angle_deg, quality.mean_min_angle_deg,
+                       quality.inverted};
+    if (session.current->energy) numbers.after.energy = session.current->energy->total;
+    const std::vector<Vec3> unknown(positions.size(), Vec3::Constant(std::nan("")));
+    const StepRecord record = model::record_of_motion(unknown, positions);
+    const Moment now{.iteration = session.timeline.cursor.iteration,
+                     .numbers = numbers,
+                     .record = record,
+                     .positions = positions,
+                     .triangles = session.document->mesh().triangles,
+                     .inverted_at_start = session.original->quality().inverted,
+                     .stop = session.timeline.cursor.iteration == session.timeline.last(),
+                     .time = session.moment().time};
+    return predicate.holds(now) ? std::string() : "does not hold: " + predicate.text();
   }
 
   struct Handler {

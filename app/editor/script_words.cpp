@@ -5,6 +5,7 @@
 #include <charconv>
 #include <functional>
 
+#include "editor/motion_words.h"
 #include "mesh/error.h"
 #include "model/arguments.h"
 
@@ -40,6 +41,11 @@ constexpr std::array kModelWords{
                "color=none|angle|max-angle|area|energy, range=run|current, wire=, legend=, "
                "reasons=, smooth=, reversed=on|off, map=NAME"},
     ScriptWord{"reset, undo, redo", ""},
+    ScriptWord{"motion [off]", "Run moves the surface; off: it smooths again"},
+    ScriptWord{"motion [defaults] OPTION VALUE ...",
+               "options of isorelax advect, without dashes: motion field paper preset balanced"},
+    ScriptWord{"motion run [N]", "N steps of the motion, or to its end"},
+    ScriptWord{"motion sphere [SPEC]", "open a sphere, N[:RADIUS[:X,Y,Z]]; none: the paper's"},
 };
 
 unsigned to_number(const std::string& word) {
@@ -221,6 +227,14 @@ struct ToLine {
     return list_line("compare", {c.first, c.second});
   }
   std::string operator()(const model::Teach&) const { return "teach"; }
+  std::string operator()(const model::SetTask& c) const {
+    return c.task == model::Task::move ? "motion" : "motion off";
+  }
+  std::string operator()(const model::SetMotion& c) const { return editor::to_line(c); }
+  std::string operator()(const model::OpenSphere& c) const { return editor::to_line(c); }
+  std::string operator()(const model::Move& c) const {
+    return "motion run" + (c.steps > 0 ? " " + std::to_string(c.steps) : "");
+  }
   // What only the program itself asks for, and what has no effect that lasts.
   std::string operator()(const model::EndEdit&) const { return {}; }
   std::string operator()(const model::Pause&) const { return {}; }
@@ -383,6 +397,7 @@ std::string to_line(const model::Command& command) {
 
 std::optional<model::Command> parse_line(Words words, const model::Session& session,
                                          const std::filesystem::path& folder) {
+  if (auto command = parse_motion_words(words, session, folder)) return command;
   for (const auto& [name, parser] : parsers())
     if (name == words.front()) return parser(words, session, folder);
   return std::nullopt;

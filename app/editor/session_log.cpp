@@ -15,6 +15,7 @@ std::string_view first_word(std::string_view line) {
 /// Of several in a row only the last one counts.
 bool replaces(std::string_view line, std::string_view before) {
   const std::string_view word = first_word(line);
+  if (line.starts_with("motion defaults")) return before.starts_with("motion defaults");
   return word == first_word(before) && (word == "seek" || word == "set" || word == "view" ||
                                         word == "camera" || word == "tab" || word == "show");
 }
@@ -52,10 +53,14 @@ void SessionLog::note(const model::Command& command, const model::Session& sessi
   std::string line = to_line(command);
   if (line.empty()) return;
   note_looks(looks_of(camera, state));
-  const bool runs =
-      std::holds_alternative<model::Run>(command) || std::holds_alternative<model::Step>(command);
+  const bool runs = std::holds_alternative<model::Run>(command) ||
+                    std::holds_alternative<model::Step>(command) ||
+                    std::holds_alternative<model::Move>(command);
   if (runs && session.can_smooth()) {
-    run_from_ = session.timeline.cursor.iteration;
+    // Another motion begins where the one that is shown began.
+    const model::Branch* shown = session.moving();
+    const bool anew = shown != nullptr && !session.continues_branch();
+    run_from_ = anew ? shown->start : session.timeline.cursor.iteration;
     return;
   }
   if (!runs) add(std::move(line));
@@ -65,7 +70,8 @@ void SessionLog::follow(const model::Session& session) {
   if (!run_from_ || session.is_running() || session.is_seeking()) return;
   const unsigned from = *std::exchange(run_from_, std::nullopt);
   const unsigned at = session.timeline.cursor.iteration;
-  if (at > from) lines_.push_back("run " + std::to_string(at - from));
+  const std::string word = session.moving() != nullptr ? "motion run " : "run ";
+  if (at > from) lines_.push_back(word + std::to_string(at - from));
 }
 
 std::string SessionLog::text(const render::Camera& camera, const ui::UiState& state) const {

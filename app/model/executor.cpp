@@ -70,7 +70,10 @@ void Executor::operator()(const EndEdit& /*command*/) {
 void Executor::operator()(const SetView& command) {
   const bool reasons = command.view.reasons && !s_.view.reasons;
   s_.view = command.view;
-  if (reasons) ask_about_step();
+  if (reasons && s_.moving() != nullptr)
+    say(MessageKind::info, "What limits vertices is known of a smoother's steps only.");
+  else if (reasons)
+    ask_about_step();
 }
 
 void Executor::operator()(const Run& command) {

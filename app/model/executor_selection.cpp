@@ -137,6 +137,10 @@ void Executor::operator()(const SetWorstBy& command) {
 
 void Executor::operator()(const TogglePin& command) {
   if (!s_.document || command.vertex >= s_.document->mesh().vertex_count() || s_.is_running()) return;
+  if (s_.moving() != nullptr) {
+    say(MessageKind::info, "Vertices of a moving surface cannot be pinned.");
+    return;
+  }
   SmoothingSettings settings = s_.smoothing;
   const auto at = std::ranges::lower_bound(settings.pinned, command.vertex);
   const bool held = at != settings.pinned.end() && *at == command.vertex;

@@ -25,7 +25,11 @@ void perform_file_action(const Ui& ui, Action action) {
       if (ui.session.document) ask_for_file(ui, FilePurpose::save_mesh);
       break;
     case Action::save_trace:
-      if (!ui.session.timeline.empty()) ask_for_file(ui, FilePurpose::save_trace);
+      if (ui.session.timeline.empty()) break;
+      if (ui.session.timeline.current()->motion)
+        ui.command(model::SaveTrace{});  // is told why there is none
+      else
+        ask_for_file(ui, FilePurpose::save_trace);
       break;
     case Action::save_picture:
       ask_for_file(ui, FilePurpose::save_picture);
@@ -198,6 +202,15 @@ void open_file(const Ui& ui, const std::filesystem::path& path) {
     ui.state.ask_unsaved = true;
   } else {
     ui.command(model::OpenFile{path});
+  }
+}
+
+void open_sphere(const Ui& ui, const SphereStart& sphere) {
+  if (ui.session.has_unsaved_changes()) {
+    ui.state.pending = sphere;
+    ui.state.ask_unsaved = true;
+  } else {
+    ui.command(model::OpenSphere{sphere});
   }
 }
 

@@ -53,6 +53,11 @@ void draw_reason(const Ui& ui, unsigned bit, std::size_t count, std::size_t vert
 void draw_reasons(const Ui& ui) {
   heading(ui, "WHAT LIMITED THE VERTICES");
   const model::Session& s = ui.session;
+  if (s.moving() != nullptr) {
+    wrapped(ui.fonts.text, color::kTextDim,
+            "This is known of a smoother's steps only: the vertices of a moving surface go with the motion.");
+    return;
+  }
   if (!s.last_step) {
     wrapped(ui.fonts.text, color::kTextDim, "Make a step: then this counts what kept vertices from moving.");
   } else {
@@ -93,24 +98,6 @@ void change_breakpoint(const Ui& ui, const std::function<void(std::vector<model:
   std::vector<model::Breakpoint> all = ui.session.breakpoints;
   change(all);
   ui.command(model::SetBreakpoints{std::move(all)});
-}
-
-// The text with the place of the mistake underlined, and what is wrong below.
-void draw_mistake(const Ui& ui, const model::Breakpoint& point) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  const std::size_t column = std::min(point.mistake_column - 1, point.text.size());
-  const float from = ImGui::CalcTextSize(point.text.substr(0, column).c_str()).x;
-  const std::string at = column < point.text.size() ? point.text.substr(column, 1) : " ";
-  const float to = from + std::max(ui.px(6), ImGui::CalcTextSize(at.c_str()).x);
-  text_in(ui.fonts.text, color::kText, point.text);
-  const float y = low.y + ImGui::GetTextLineHeight() + ui.px(1);
-  draw.AddLine({low.x + from, y}, {low.x + to, y}, color::kWorse, ui.px(2));
-  draw.AddTriangleFilled({low.x + from, y + ui.px(6)}, {low.x + to, y + ui.px(6)},
-                         {low.x + 0.5F * (from + to), y + ui.px(1)}, color::kWorse);
-  ImGui::Dummy({0, ui.px(2)});
-  wrapped(ui.fonts.small, color::kWorse,
-          "Column " + std::to_string(point.mistake_column) + ": " + point.mistake);
 }
 
 void draw_breakpoint(const Ui& ui, std::size_t k) {
@@ -157,7 +144,7 @@ void draw_new_breakpoint(const Ui& ui) {
   if (typing.predicate.empty()) return;
   const model::Breakpoint made = model::make_breakpoint(typing.predicate, model::BreakAction::stop);
   if (!made.predicate) {
-    draw_mistake(ui, made);
+    draw_mistake(ui, made.text, made.mistake_column, made.mistake);
     mark_area(ui, "mistake", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
     return;
   }
@@ -210,9 +197,10 @@ void draw_log(const Ui& ui) {
 }  // namespace
 
 void draw_debug(const Ui& ui) {
-  if (ui.session.last_run && !ui.session.is_running()) {
+  const std::string ended = ui.session.is_running() ? std::string() : describe_last_run(ui.session);
+  if (!ended.empty()) {
     heading(ui, "THE LAST RUN");
-    wrapped(ui.fonts.text, color::kText, describe_last_run(ui.session));
+    wrapped(ui.fonts.text, color::kText, ended);
     mark_area(ui, "ended", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   }
   draw_reasons(ui);

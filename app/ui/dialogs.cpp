@@ -58,6 +58,8 @@ void go_on(const Ui& ui) {
   if (std::holds_alternative<PendingQuit>(ui.state.pending)) ui.request(Quit{});
   if (const auto* path = std::get_if<std::filesystem::path>(&ui.state.pending))
     ui.command(model::OpenFile{*path});
+  if (const auto* sphere = std::get_if<SphereStart>(&ui.state.pending))
+    ui.command(model::OpenSphere{*sphere});
   ui.state.pending = std::monostate{};
 }
 
@@ -100,7 +102,7 @@ void draw_unsaved_question(const Ui& ui) {
     if (!ui.session.has_unsaved_changes()) go_on(ui);
   }
   if (!begin_dialog(ui, "unsaved", ui.px(440))) return;
-  text_in(ui.fonts.title, color::kText, "Keep the smoothed mesh?");
+  text_in(ui.fonts.title, color::kText, "Keep the changed mesh?");
   ImGui::PushTextWrapPos(0);
   text_in(ui.fonts.text, color::kTextDim, "Its positions are in no file yet. Without saving they are lost.");
   ImGui::PopTextWrapPos();

@@ -33,6 +33,7 @@ bool fits(FilePurpose purpose, const fs::path& path) {
   if (purpose == FilePurpose::save_picture) return extension == ".png";
   if (purpose == FilePurpose::save_trace || purpose == FilePurpose::add_trace) return extension == ".trace";
   if (purpose == FilePurpose::save_script) return extension == ".script";
+  if (purpose == FilePurpose::field) return extension == ".vtk";
   if (purpose == FilePurpose::open_mesh && extension == ".trace") return true;
   return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
 }
@@ -93,7 +94,10 @@ std::string_view title(FilePurpose purpose) {
       return "Save what was done as a script";
     case FilePurpose::add_trace:
       return "Add a recorded run of this mesh";
+    case FilePurpose::field:
+      return "Choose a sampled velocity (VTK legacy text)";
     case FilePurpose::reference:
+    case FilePurpose::motion_reference:
       break;
   }
   return "Choose a reference mesh";
@@ -126,6 +130,19 @@ void deliver(const Ui& ui, const fs::path& path) {
     case FilePurpose::comparison:
       ui.request(CompareWithFile{path});
       break;
+    case FilePurpose::field: {
+      MotionChoices motion = ui.session.motion;
+      motion.field.kind = FieldKind::file;
+      motion.field.path = path.string();
+      ui.command(model::SetMotion{motion, "Field"});
+      break;
+    }
+    case FilePurpose::motion_reference: {
+      MotionChoices motion = ui.session.motion;
+      motion.reference = path.string();
+      ui.command(model::SetMotion{motion, "Reference"});
+      break;
+    }
     case FilePurpose::reference: {
       model::SmoothingSettings settings = ui.session.smoothing;
       settings.reference = model::ReferenceKind::file;

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "ui/inspector_parts.h"
+#include "ui/motion_panel.h"
 #include "ui/widgets.h"
 
 namespace isorelax::ui {
@@ -125,7 +126,7 @@ void draw_triangle(const Ui& ui, Index triangle) {
   text_in(ui.fonts.small, color::kTextFaint, step_text(s) + rank);
   wrapped(ui.fonts.text, color::kText, triangle_sentence(*e));
   ImGui::Dummy({0, ui.px(2)});
-  draw_triangles(ui, *e, ui.px(150));
+  if (s.inspection.step) draw_triangles(ui, *e, *s.inspection.step->before, ui.px(150));
   draw_triangle_sections(ui, *e);
 }
 
@@ -139,7 +140,11 @@ void draw_inspector(const Ui& ui) {
     wrapped(ui.fonts.text, color::kWarning, "Steps cannot be looked into: " + branch->not_redone + ".");
   if (const auto& step = s.inspection.step; step && !step->mismatch.empty())
     wrapped(ui.fonts.text, color::kWarning, step->mismatch);
-  if (s.selected_vertex) {
+  if (s.moving() != nullptr && s.selected_vertex) {
+    draw_moving_vertex(ui);
+  } else if (s.moving() != nullptr && s.selected_triangle) {
+    draw_moving_triangle(ui);
+  } else if (s.selected_vertex) {
     draw_vertex(ui, *s.selected_vertex);
   } else if (s.selected_triangle) {
     draw_triangle(ui, *s.selected_triangle);

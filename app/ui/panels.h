@@ -40,6 +40,8 @@ void draw_settings_panel(const Ui& ui, const Rect& rect);
 void draw_side_panel(const Ui& ui, const Rect& rect);
 /// What the tabs hold; inside a panel that has begun.
 void draw_quality(const Ui& ui);
+/// The distributions of smallest angles and of areas, now and as opened.
+void draw_histograms(const Ui& ui, float height);
 void draw_inspector(const Ui& ui);
 void draw_debug(const Ui& ui);
 void draw_runs(const Ui& ui);
@@ -58,6 +60,8 @@ void draw_unsaved_question(const Ui& ui);
 void ask_for_file(const Ui& ui, FilePurpose purpose);
 /// Opens a file, after asking what becomes of unsaved changes.
 void open_file(const Ui& ui, const std::filesystem::path& path);
+/// The same for a sphere.
+void open_sphere(const Ui& ui, const SphereStart& sphere);
 /// Carries out what a shortcut or a button asks for.
 void perform(const Ui& ui, Action action);
 

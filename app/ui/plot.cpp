@@ -140,7 +140,7 @@ void hover_lines(const Ui& ui, const Frame& frame, const LinePlot& plot) {
     if (own == line.points.end()) continue;
     lines.emplace_back(line.label + "  " + number_text(plot.format.c_str(), own->y) + plot.unit, line.color);
   }
-  read_out(ui, "Iteration " + number_text("%.0f", nearest->x), lines);
+  read_out(ui, plot.x_name + " " + number_text(plot.x_format.c_str(), nearest->x), lines);
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
     for (const Line& line : plot.lines) key.push_back({line.label, line.color});
   Frame frame{begin_plot(ui, plot.name, plot.title, key, height), 0, 1, plot.low, plot.high};
   if (frame.area.height() < 8) return;
-  double last = 10;
+  double last = plot.x_end;
   for (const Line& line : plot.lines)
     if (!line.points.empty()) last = std::max(last, static_cast<double>(line.points.back().x));
   frame.x1 = last;
@@ -226,7 +226,7 @@ void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
   for (const double t : ticks)
     draw_y_tick(ui, frame, logarithmic ? std::log10(t) : t, short_number(t) + plot.unit);
   for (const double t : round_ticks(0, frame.x1, 4))
-    if (t == std::floor(t)) draw_x_tick(ui, frame, t, short_number(t));
+    if (!plot.whole_numbers || t == std::floor(t)) draw_x_tick(ui, frame, t, short_number(t));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
   for (const Line& line : plot.lines) draw_line(draw, frame, line, plot.scale, ui.px(1.75F));

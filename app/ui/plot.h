@@ -27,7 +27,7 @@ void draw_bars(const Ui& ui, const Bars& bars, float height);
 struct Line {
   std::string label{};
   ImU32 color = color::kAccent;
-  std::vector<ImVec2> points{};   ///< iteration and value, ascending
+  std::vector<ImVec2> points{};   ///< iteration (or time) and value, ascending
   std::vector<bool> new_start{};  ///< the point begins a piece of its own
 };
 enum class PlotScale : std::uint8_t { linear, logarithmic };
@@ -40,9 +40,14 @@ struct LinePlot {
   PlotScale scale = PlotScale::linear;
   double low = 0, high = 1;
   std::vector<double> ticks{};     ///< empty: round numbers
-  std::optional<double> marker{};  ///< an iteration that is marked
+  std::optional<double> marker{};  ///< a place that is marked
+  // The horizontal axis.
+  std::string x_name = "Iteration";
+  std::string x_format = "%.0f";
+  double x_end = 10;          ///< at least so far
+  bool whole_numbers = true;  ///< only these are written at it
 };
-/// Lines over iterations, with a read-out under the pointer.
+/// Lines over iterations or time, with a read-out under the pointer.
 void draw_lines(const Ui& ui, const LinePlot& plot, float height);
 
 }  // namespace isorelax::ui

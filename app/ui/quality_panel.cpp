@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "smoothing/step_record.h"
+#include "ui/motion_panel.h"
 #include "ui/panels.h"
 #include "ui/plot.h"
 #include "ui/widgets.h"
@@ -91,6 +92,8 @@ void draw_table(const Ui& ui) {
   ImGui::EndTable();
 }
 
+}  // namespace
+
 void draw_histograms(const Ui& ui, float height) {
   const model::Geometry& before = *ui.session.original->geometry;
   const model::Geometry& now = *ui.session.current->geometry;
@@ -117,6 +120,8 @@ void draw_histograms(const Ui& ui, float height) {
              .above_before = before.relative_area.above},
             height);
 }
+
+namespace {
 
 Line make_line(const std::vector<model::IterationRow>& rows, double model::IterationRow::*field,
                std::string label, ImU32 color) {
@@ -178,6 +183,7 @@ void draw_history(const Ui& ui, float height) {
 }  // namespace
 
 void draw_quality(const Ui& ui) {
+  if (ui.session.moving() != nullptr) return draw_motion_quality(ui);
   draw_table(ui);
   ImGui::Separator();
   ImGui::Dummy({0, ui.px(1)});
@@ -243,6 +249,7 @@ std::string limits_sentence(const model::StepSummary& step) {
 }  // namespace
 
 std::string describe_last_run(const model::Session& session) {
+  if (const model::Branch* branch = session.moving()) return branch->ended;
   if (!session.last_run) return {};
   const RunResult& run = *session.last_run;
   std::string text = !session.broken_by.empty()

@@ -134,10 +134,7 @@ void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
       {rect.low.x + ui.px(10), rect.high.y - ui.px(20)});
 }
 
-void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height) {
-  const auto& step = ui.session.inspection.step;
-  if (!step) return;
-  const std::vector<Vec3>& x = *step->before;
+void draw_triangles(const Ui& ui, const TriangleExplanation& e, std::span<const Vec3> x, float height) {
   const Triangle& corners = ui.session.document->mesh().triangles[e.triangle];
   const Rect rect = begin_picture(ui, "triangles", height);
   // All flat, the first side along the picture, to one scale.

@@ -10,6 +10,10 @@ namespace {
 constexpr std::size_t kMostBeside = 3;
 
 std::string range_text(const model::Branch& branch) {
+  if (branch.motion) {
+    const double time = branch.moments.empty() ? 0 : branch.moments.back().time;
+    return std::to_string(branch.steps.size()) + " steps, to t = " + number_text("%.4g", time);
+  }
   return branch.start == 0 ? std::to_string(branch.tip()) + " iterations"
                            : "from " + std::to_string(branch.start) + " to " + std::to_string(branch.tip());
 }
@@ -98,12 +102,17 @@ void draw_difference(const Ui& ui) {
 void draw_traces(const Ui& ui) {
   const model::Session& s = ui.session;
   heading(ui, "TRACES");
+  const bool moves = !s.timeline.empty() && s.timeline.current()->motion;
   const float half = std::floor(0.5F * (ImGui::GetContentRegionAvail().x - ui.px(8)));
   if (button(ui, "save-trace", "Save trace",
-             {.icon = Icon::save, .width = half, .enabled = !s.timeline.empty()}))
+             {.icon = Icon::save, .width = half, .enabled = !s.timeline.empty() && !moves}))
     perform(ui, Action::save_trace);
-  tooltip(ui, "The present run as one file: input, settings, every iteration to the bit.",
-          keys_of(Action::save_trace));
+  tooltip(
+      ui,
+      moves ? "A trace is of a smoother. isorelax advect writes the states of a moving surface; its command "
+              "line can be copied."
+            : "The present run as one file: input, settings, every iteration to the bit.",
+      keys_of(Action::save_trace));
   ImGui::SameLine(0, ui.px(8));
   if (button(ui, "add-trace", "Add trace", {.icon = Icon::open, .width = half}))
     ask_for_file(ui, FilePurpose::add_trace);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "ui/motion_panel.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -178,28 +179,60 @@ void draw_iterations(const Ui& ui) {
   change(ui, settings, "Tolerance");
 }
 
+// What Run does.
+void draw_task(const Ui& ui) {
+  constexpr std::array<std::string_view, 2> kTasks{"Smooth", "Move"};
+  ImGui::BeginDisabled(ui.session.is_running());
+  const int choice =
+      segmented(ui, "task", kTasks, static_cast<int>(ui.session.task), ImGui::GetContentRegionAvail().x);
+  ImGui::EndDisabled();
+  tooltip(ui, "Smooth the mesh, or carry it by a motion and redistribute its vertices on the way.");
+  ImGui::Dummy({0, ui.px(2)});
+  if (choice >= 0) ui.command(model::SetTask{static_cast<model::Task>(choice)});
+}
+
+// "Run", "Continue", ...: what a press does.
+std::string run_label(const model::Session& s) {
+  if (s.is_running()) return "Pause";
+  if (s.task == model::Task::smooth) return s.remaining > 0 ? "Continue" : "Run";
+  const bool begun = s.continues_branch() && s.timeline.cursor.iteration > s.timeline.current()->start;
+  return begun ? "Continue" : "Run";
+}
+
+// A moving surface at its end goes nowhere.
+bool has_arrived(const model::Session& s) {
+  if (s.task != model::Task::move || !s.continues_branch()) return false;
+  const model::Branch& branch = *s.timeline.current();
+  return s.timeline.cursor.iteration == branch.tip() && !branch.moments.empty() &&
+         branch.moments.back().time >= branch.until;
+}
+
 void draw_run_buttons(const Ui& ui) {
   const model::Session& s = ui.session;
   const bool running = s.is_running();
+  const bool moves = s.task == model::Task::move;
+  const bool can_run = s.can_smooth() && !has_arrived(s);
   const float height = ui.px(34);
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ui.px(8);
   ImGui::Dummy({0, ui.px(2)});
-  const std::string run = running ? "Pause" : s.remaining > 0 ? "Continue" : "Run";
-  if (button(ui, "run", run,
+  if (button(ui, "run", run_label(s),
              {.icon = running ? Icon::pause : Icon::run,
               .look = ButtonLook::accent,
               .width = width,
               .height = height,
-              .enabled = running || s.can_smooth()}))
+              .enabled = running || can_run}))
     perform(ui, Action::run_pause);
-  tooltip(ui, running ? "Stop after this iteration." : "Smooth up to the number of iterations.",
+  tooltip(ui,
+          has_arrived(s) ? "It has arrived at its end: set a later one, another motion, or go back in time."
+          : running      ? "Stop after this step."
+          : moves        ? "Carry the surface to the end of its time."
+                         : "Smooth up to the number of iterations.",
           keys_of(Action::run_pause));
   const float half = std::floor(0.5F * (width - gap));
-  if (button(ui, "step", "Step",
-             {.icon = Icon::step, .width = half, .height = height, .enabled = s.can_smooth()}))
+  if (button(ui, "step", "Step", {.icon = Icon::step, .width = half, .height = height, .enabled = can_run}))
     perform(ui, Action::step);
-  tooltip(ui, "One iteration.", keys_of(Action::step));
+  tooltip(ui, moves ? "One time step." : "One iteration.", keys_of(Action::step));
   ImGui::SameLine(0, gap);
   const bool moved = s.current && s.current->geometry != s.original->geometry;
   if (button(ui, "reset", "Reset",
@@ -209,7 +242,7 @@ void draw_run_buttons(const Ui& ui) {
   if (button(ui, "copy-command-line", "Copy as command line",
              {.look = ButtonLook::quiet, .width = width, .enabled = s.document != nullptr}))
     perform(ui, Action::copy_command_line);
-  tooltip(ui, "The same smoothing for a shell.", keys_of(Action::copy_command_line));
+  tooltip(ui, "The same for a shell.", keys_of(Action::copy_command_line));
 }
 
 void draw_range(const Ui& ui, model::ViewSettings& view) {
@@ -257,15 +290,19 @@ void draw_display(const Ui& ui) {
 
 void draw_settings_panel(const Ui& ui, const Rect& rect) {
   begin_panel("settings", rect);
-  heading(ui, "SMOOTHING");
-  ImGui::BeginDisabled(ui.session.is_running());
-  draw_solver(ui);
-  draw_mu(ui);
-  draw_reference(ui);
-  draw_boundary(ui);
-  draw_features(ui);
-  draw_iterations(ui);
-  ImGui::EndDisabled();
+  draw_task(ui);
+  if (ui.session.task == model::Task::move) {
+    draw_motion_settings(ui);
+  } else {
+    ImGui::BeginDisabled(ui.session.is_running());
+    draw_solver(ui);
+    draw_mu(ui);
+    draw_reference(ui);
+    draw_boundary(ui);
+    draw_features(ui);
+    draw_iterations(ui);
+    ImGui::EndDisabled();
+  }
   draw_run_buttons(ui);
   heading(ui, "COLOURS");
   draw_display(ui);

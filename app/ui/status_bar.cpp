@@ -12,7 +12,9 @@ std::string describe_document(const model::Session& s) {
   const TriangleMesh& mesh = s.document->mesh();
   return s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") + "   " +
          count_text(mesh.vertex_count()) + " vertices   " + count_text(mesh.triangle_count()) +
-         " triangles   iteration " + count_text(s.current->iteration);
+         " triangles   " +
+         (s.moving() != nullptr ? "t = " + number_text("%.4g", s.moment().time)
+                                : "iteration " + count_text(s.current->iteration));
 }
 
 void draw_progress(const Ui& ui, const model::Progress& progress, float x) {

@@ -135,9 +135,22 @@ void draw_stages(const Ui& ui, float right) {
   }
 }
 
+std::string motion_caption(const model::Session& s, const model::Branch& branch) {
+  std::string text = "Step " + std::to_string(s.timeline.cursor.iteration - branch.start) + " of " +
+                     std::to_string(branch.steps.size()) +
+                     "   \xC2\xB7   t = " + number_text("%.4g", s.moment().time) + " of " +
+                     number_text("%.4g", branch.until) + "   \xC2\xB7   " + branch.name;
+  if (s.is_running()) return text;
+  if (s.is_seeking()) return text + "   \xC2\xB7   going there";
+  if (s.task == model::Task::move && !s.continues_branch())
+    text += "   \xC2\xB7   Run begins another motion at t = 0";
+  return text;
+}
+
 std::string caption(const model::Session& s) {
   const Timeline& timeline = s.timeline;
   if (timeline.empty()) return "Nothing has been run yet: Space runs, Right makes one step.";
+  if (const model::Branch* branch = s.moving()) return motion_caption(s, *branch);
   std::string text = "Iteration " + std::to_string(timeline.cursor.iteration) + " of " +
                      std::to_string(timeline.last()) + "   \xC2\xB7   " + timeline.current()->name;
   if (s.is_running()) return text;
@@ -209,6 +222,15 @@ void draw_cursor(const Ui& ui, const Track& track) {
                          color::kText);
 }
 
+// The time of an iteration of the moving surface that is shown.
+std::optional<double> time_at(const model::Session& s, double iteration) {
+  const model::Branch* branch = s.moving();
+  if (branch == nullptr || iteration < branch->start) return std::nullopt;
+  const auto k = static_cast<std::size_t>(iteration - branch->start);
+  if (k >= branch->moments.size()) return std::nullopt;
+  return branch->moments[k].time;
+}
+
 // Clicks and drags; a press on another branch' bar goes over to it.
 void scrub(const Ui& ui, const Track& track) {
   const model::Session& s = ui.session;
@@ -233,6 +255,7 @@ void scrub(const Ui& ui, const Track& track) {
   const auto& rows = s.history;
   const auto row = std::ranges::find(rows, at, &model::IterationRow::iteration);
   std::string text = "Iteration " + std::to_string(at);
+  if (const auto time = time_at(s, at)) text += "\nt = " + number_text("%.6g", *time);
   if (row != rows.end())
     text += "\nEnergy " + number_text("%.6g", row->energy) + "\nSmallest angle " +
             number_text("%.2f", row->min_angle_deg) + "\xC2\xB0";
@@ -259,9 +282,10 @@ void draw_track(const Ui& ui, const Rect& area) {
   draw_hits(ui, track);
   draw_cursor(ui, track);
   const float line = ui.fonts.small->FontSize;
-  for (const double t : round_ticks(0, track.last, 8)) {
+  for (const double t : round_ticks(0, track.last, s.moving() != nullptr ? 5 : 8)) {
     if (t != std::floor(t)) continue;
-    const std::string text = number_text("%.0f", t);
+    std::string text = number_text("%.0f", t);
+    if (const auto time = time_at(s, t)) text += "  (t " + number_text("%.3g", *time) + ")";
     const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
     draw.AddLine({track.x(t), area.high.y}, {track.x(t), area.high.y + ui.px(3)}, color::kLine);
     draw.AddText(ui.fonts.small, line,
@@ -293,7 +317,9 @@ void draw_timeline(const Ui& ui, const Rect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(8)});
   begin_panel("timeline", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   draw_transport(ui);
-  if (!ui.session.timeline.empty() && rect.width() > ui.px(610)) draw_stages(ui, rect.width() - ui.px(14));
+  // Steps of a moving surface have no stages.
+  if (!ui.session.timeline.empty() && ui.session.moving() == nullptr && rect.width() > ui.px(610))
+    draw_stages(ui, rect.width() - ui.px(14));
   const float line = ui.fonts.small->FontSize;
   const float top = rect.low.y + ui.px(41);
   ImDrawList& draw = *ImGui::GetWindowDrawList();

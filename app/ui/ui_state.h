@@ -84,6 +84,8 @@ enum class FilePurpose : std::uint8_t {
   save_trace,
   add_trace,
   save_script,
+  field,
+  motion_reference,
 };
 
 /// How the mesh is shown beside another state of it.
@@ -125,7 +127,7 @@ struct FileBrowser {
 
 /// What waits for the answer to "Save changes?".
 struct PendingQuit {};
-using PendingAction = std::variant<std::monostate, PendingQuit, std::filesystem::path>;
+using PendingAction = std::variant<std::monostate, PendingQuit, std::filesystem::path, SphereStart>;
 
 /// What the panel at the right shows.
 enum class SideTab : std::uint8_t { quality, inspect, debug, runs };

@@ -1,5 +1,6 @@
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -71,6 +72,22 @@ void wrapped(ImFont* font, ImU32 color, std::string_view text) {
   ImGui::PushTextWrapPos(0);
   text_in(font, color, text);
   ImGui::PopTextWrapPos();
+}
+
+void draw_mistake(const Ui& ui, const std::string& text, std::size_t column, const std::string& reason) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const std::size_t before = std::min(column - 1, text.size());
+  const float from = ImGui::CalcTextSize(text.substr(0, before).c_str()).x;
+  const std::string at = before < text.size() ? text.substr(before, 1) : " ";
+  const float to = from + std::max(ui.px(6), ImGui::CalcTextSize(at.c_str()).x);
+  text_in(ui.fonts.text, color::kText, text);
+  const float y = low.y + ImGui::GetTextLineHeight() + ui.px(1);
+  draw.AddLine({low.x + from, y}, {low.x + to, y}, color::kWorse, ui.px(2));
+  draw.AddTriangleFilled({low.x + from, y + ui.px(6)}, {low.x + to, y + ui.px(6)},
+                         {low.x + 0.5F * (from + to), y + ui.px(1)}, color::kWorse);
+  ImGui::Dummy({0, ui.px(2)});
+  wrapped(ui.fonts.small, color::kWorse, "Column " + std::to_string(column) + ": " + reason);
 }
 
 }  // namespace isorelax::ui

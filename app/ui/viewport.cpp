@@ -149,6 +149,22 @@ void draw_selection(const Ui& ui, const Rect& rect) {
   mark_area(ui, "selection", {low, high});
 }
 
+// Of a moving surface: the time, and that colours of different times can be compared.
+void draw_moment(const Ui& ui, const Rect& rect) {
+  const model::Session& s = ui.session;
+  if (s.moving() == nullptr) return;
+  std::string text = "t = " + number_text("%.4g", s.moment().time);
+  const bool areas = s.view.coloring == model::Coloring::relative_area;
+  if (s.view.range_mode == model::RangeMode::run && (areas || s.view.coloring == model::Coloring::energy))
+    text += areas ? "   \xC2\xB7   areas over the mean, one range for the whole run"
+                  : "   \xC2\xB7   one range for the whole run";
+  const float line = ui.fonts.small->FontSize;
+  const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
+  const ImVec2 at{std::floor(rect.high.x - ui.px(16) - width), std::floor(rect.high.y - ui.px(12) - line)};
+  ImGui::GetWindowDrawList()->AddText(ui.fonts.small, line, at, color::kTextDim, text.c_str());
+  mark_area(ui, "moment", {at, {at.x + width, at.y + line}});
+}
+
 }  // namespace
 
 void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
@@ -166,6 +182,7 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
     pick(ui, rect, divides);
     draw_pictures(ui, rect, image);
     draw_selection(ui, rect);
+    draw_moment(ui, rect);
   } else if (ui.session.activity != model::Activity::loading) {
     draw_welcome(ui, rect);
   }

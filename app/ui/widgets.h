@@ -95,6 +95,9 @@ bool link(const Ui& ui, std::string_view name, std::string_view label);
 /// Text over as many lines as it takes.
 void wrapped(ImFont* font, ImU32 color, std::string_view text);
 
+/// A text with the place of a mistake underlined, and what is wrong below; `column` counts from 1.
+void draw_mistake(const Ui& ui, const std::string& text, std::size_t column, const std::string& reason);
+
 /// "1 234 567": groups of three with thin gaps.
 [[nodiscard]] std::string count_text(std::size_t count);
 /// printf-like number text for one double.
