@@ -20,7 +20,6 @@ namespace isorelax::editor {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kFlightSeconds = 0.3;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -30,16 +29,6 @@ ui::FontFiles font_files() {
   const std::string_view regular = render::embedded_file("Inter-Regular.otf");
   const std::string_view semibold = embedded_file("Inter-SemiBold.otf");
   return {{regular.data(), regular.size()}, {semibold.data(), semibold.size()}};
-}
-
-render::Camera between(const render::Camera& a, const render::Camera& b, double t) {
-  render::Camera camera = b;
-  camera.target = a.target + t * (b.target - a.target);
-  const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
-  camera.azimuth_deg = a.azimuth_deg + t * turn;
-  camera.elevation_deg = a.elevation_deg + t * (b.elevation_deg - a.elevation_deg);
-  camera.extent = a.extent * std::pow(b.extent / a.extent, t);
-  return camera;
 }
 
 }  // namespace
@@ -67,6 +56,7 @@ void Editor::frame(const FrameOptions& options) {
                std::max(1, static_cast<int>(layout.viewport.height()))};
   follow_document();
   move_camera(options.time);
+  follow_motion();
   const auto before_mesh = Clock::now();
   draw_pictures();
   drawing += seconds_since(before_mesh);
@@ -82,37 +72,6 @@ void Editor::frame(const FrameOptions& options) {
   painter_.paint(interface_, options.size);
   drawing += seconds_since(before_paint);
   times_ = {seconds_since(start) - drawing, drawing};
-}
-
-// Another file gets a camera of its own; the same file read again keeps the one there is.
-void Editor::follow_document() {
-  if (shown_document_ == session_.document || !session_.document) return;
-  const bool same_file = shown_document_ && shown_document_->path == session_.document->path;
-  shown_document_ = session_.document;
-  if (same_file) return;
-  base_.selected.reset();
-  camera_ = render::default_camera(session_.document->mesh().positions, viewport_, fit_options());
-  flight_.reset();
-}
-
-// Keeps the mesh clear of the legend.
-render::FitOptions Editor::fit_options() {
-  ViewScene scene;
-  return {.margin = 0.07, .right = render::legend_share(scene.make(shown_now(), present_view()), pane())};
-}
-
-void Editor::move_camera(double time) {
-  if (!flight_) return;
-  const double t = std::clamp((time - flight_->start) / kFlightSeconds, 0.0, 1.0);
-  camera_ = between(flight_->from, flight_->to, t * t * (3 - 2 * t));
-  if (t >= 1) flight_.reset();
-}
-
-void Editor::fly_to(const render::Camera& to) {
-  if (motion_ == Motion::instant)
-    camera_ = to;
-  else
-    flight_ = Flight{camera_, to, time_};
 }
 
 view::View Editor::present_view() const {
@@ -320,7 +279,7 @@ void Editor::carry_out_request(const ui::Request& request) {
     const auto [x, y] = in_pane(zoom->x, zoom->y);
     camera_ = render::zoom_to(camera_, zoom->factor, x, y, pane());
   } else if (std::holds_alternative<ui::FrameView>(request)) {
-    if (session_.current) fly_to(render::fit(camera_, session_.current->positions(), pane(), fit_options()));
+    if (session_.current) fly_to(framed_ = framed());
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));

@@ -93,6 +93,8 @@ class Editor {
   void follow_document();
   [[nodiscard]] render::FitOptions fit_options();
   void move_camera(double time);
+  void follow_motion();
+  [[nodiscard]] render::Camera framed();
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
   [[nodiscard]] render::PictureSize pane() const;
@@ -125,6 +127,8 @@ class Editor {
   render::Camera camera_;
   view::View base_;  ///< pasted last: what the session has no setting for
   std::optional<Flight> flight_;
+  render::Camera framed_;           ///< as it was when it last framed the mesh by itself or when asked to
+  Eigen::AlignedBox3d framed_box_;  ///< of the moving surface in it
   model::DocumentPtr shown_document_;
   render::PictureSize viewport_;
   float scale_ = 1;

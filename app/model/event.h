@@ -83,6 +83,7 @@ struct Moved {
   std::vector<StepSummary> steps;  ///< the same without that of the start
   /// Smallest and largest area over the mean, and energy, over all of these moments.
   ValueRange areas = kNoRange, energies = kNoRange;
+  Eigen::AlignedBox3d box;  ///< holds all vertices of all of them
   MeshStatePtr state;
   std::vector<BreakHit> hits;
 };

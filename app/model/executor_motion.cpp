@@ -166,6 +166,7 @@ void Executor::operator()(Moved& event) {
   };
   unite(branch.areas, event.areas);
   unite(branch.energies, event.energies);
+  branch.box.extend(event.box);
   s_.history.insert(s_.history.end(), event.rows.begin(), event.rows.end());
   branch.rows.insert(branch.rows.end(), event.rows.begin(), event.rows.end());
   branch.steps.insert(branch.steps.end(), event.steps.begin(), event.steps.end());

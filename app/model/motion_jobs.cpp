@@ -95,6 +95,7 @@ class MotionReporter {
     const std::span<const Triangle> triangles = run_.surface().triangles();
     found_.moments.push_back(run_.measure(MotionRun::Detail::plain));
     unite(found_.areas, extremes_of_areas(x, triangles));
+    for (const Vec3& point : x) found_.box.extend(point);
     energy_ = nullptr;
     if (const auto& problem = recording_.motion->measured_by) {
       energy_ = measure_energy(*problem, request_.settings, x);

@@ -57,6 +57,7 @@ struct Branch {
   double until = 0;                        ///< time at which it ends
   std::vector<MotionEntry> moments;        ///< of iterations start, ..., tip()
   ValueRange areas{1, 1}, energies{2, 2};  ///< extremes over all moments
+  Eigen::AlignedBox3d box;                 ///< holds all vertices at all moments
 
   [[nodiscard]] unsigned tip() const { return start + static_cast<unsigned>(steps.size()); }
 };

@@ -205,7 +205,7 @@ void draw_motion_quality(const Ui& ui) {
   draw_over_time(ui,
                  {{.name = "motion-volume", .title = "VOLUME CHANGE", .format = "%.4g", .unit = " %"},
                   {{"volume", [](const MotionEntry& m) { return 100 * m.volume_change; }}}},
-                 1e-3, height);
+                 0.01, height);
   TimePlot off{{.name = "motion-off", .title = "OFF THE SURFACE", .format = "%.3g"},
                {{"largest", [](const MotionEntry& m) { return m.report.deviation.max; }},
                 {"mean", [](const MotionEntry& m) { return m.report.deviation.mean; }}}};

@@ -191,20 +191,21 @@ void draw_task(const Ui& ui) {
   if (choice >= 0) ui.command(model::SetTask{static_cast<model::Task>(choice)});
 }
 
-// "Run", "Continue", ...: what a press does.
-std::string run_label(const model::Session& s) {
-  if (s.is_running()) return "Pause";
-  if (s.task == model::Task::smooth) return s.remaining > 0 ? "Continue" : "Run";
-  const bool begun = s.continues_branch() && s.timeline.cursor.iteration > s.timeline.current()->start;
-  return begun ? "Continue" : "Run";
-}
-
 // A moving surface at its end goes nowhere.
 bool has_arrived(const model::Session& s) {
   if (s.task != model::Task::move || !s.continues_branch()) return false;
   const model::Branch& branch = *s.timeline.current();
   return s.timeline.cursor.iteration == branch.tip() && !branch.moments.empty() &&
          branch.moments.back().time >= branch.until;
+}
+
+// "Run", "Continue", ...: what a press does.
+std::string run_label(const model::Session& s) {
+  if (s.is_running()) return "Pause";
+  if (s.task == model::Task::smooth) return s.remaining > 0 ? "Continue" : "Run";
+  if (has_arrived(s)) return "Arrived at its end";
+  const bool begun = s.continues_branch() && s.timeline.cursor.iteration > s.timeline.current()->start;
+  return begun ? "Continue" : "Run";
 }
 
 void draw_run_buttons(const Ui& ui) {

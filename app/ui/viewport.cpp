@@ -160,9 +160,13 @@ void draw_moment(const Ui& ui, const Rect& rect) {
                   : "   \xC2\xB7   one range for the whole run";
   const float line = ui.fonts.small->FontSize;
   const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
-  const ImVec2 at{std::floor(rect.high.x - ui.px(16) - width), std::floor(rect.high.y - ui.px(12) - line)};
-  ImGui::GetWindowDrawList()->AddText(ui.fonts.small, line, at, color::kTextDim, text.c_str());
-  mark_area(ui, "moment", {at, {at.x + width, at.y + line}});
+  const ImVec2 pad{ui.px(10), ui.px(5)};
+  const ImVec2 high{rect.high.x - ui.px(14), rect.high.y - ui.px(14)};
+  const ImVec2 low{std::floor(high.x - width - 2 * pad.x), std::floor(high.y - line - 2 * pad.y)};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(low, high, IM_COL32(34, 37, 43, 235), ui.px(6));
+  draw.AddText(ui.fonts.small, line, {low.x + pad.x, low.y + pad.y}, color::kText, text.c_str());
+  mark_area(ui, "moment", {low, high});
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include "editor/editor.h"
+#include "render/overlay.h"
+
+namespace isorelax::editor {
+namespace {
+
+constexpr double kFlightSeconds = 0.3;
+
+render::Camera between(const render::Camera& a, const render::Camera& b, double t) {
+  render::Camera camera = b;
+  camera.target = a.target + t * (b.target - a.target);
+  const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
+  camera.azimuth_deg = a.azimuth_deg + t * turn;
+  camera.elevation_deg = a.elevation_deg + t * (b.elevation_deg - a.elevation_deg);
+  camera.extent = a.extent * std::pow(b.extent / a.extent, t);
+  return camera;
+}
+
+}  // namespace
+
+// Another file gets a camera of its own; the same file read again keeps the one there is.
+void Editor::follow_document() {
+  if (shown_document_ == session_.document || !session_.document) return;
+  const bool same_file = shown_document_ && shown_document_->path == session_.document->path;
+  shown_document_ = session_.document;
+  if (same_file) return;
+  base_.selected.reset();
+  camera_ = framed_ = render::default_camera(session_.document->mesh().positions, viewport_, fit_options());
+  framed_box_.setEmpty();
+  flight_.reset();
+}
+
+// A camera that shows the whole mesh; of a moving surface all moments, so that it serves every one of them.
+render::Camera Editor::framed() {
+  const model::Branch* branch = session_.moving();
+  if (branch == nullptr || branch->box.isEmpty())
+    return render::fit(camera_, session_.current->positions(), pane(), fit_options());
+  framed_box_ = branch->box;
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.push_back(branch->box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+  return render::fit(camera_, corners, pane(), fit_options());
+}
+
+// A camera that nobody has turned since it framed the mesh goes on to frame it.
+void Editor::follow_motion() {
+  const model::Branch* branch = session_.moving();
+  if (branch == nullptr || branch->box.isEmpty() || flight_ || !(camera_ == framed_)) return;
+  if (!framed_box_.isEmpty() && framed_box_.contains(branch->box)) return;
+  camera_ = framed_ = framed();
+}
+
+// Keeps the mesh clear of the legend.
+render::FitOptions Editor::fit_options() {
+  ViewScene scene;
+  return {.margin = 0.07, .right = render::legend_share(scene.make(shown_now(), present_view()), pane())};
+}
+
+void Editor::move_camera(double time) {
+  if (!flight_) return;
+  const double t = std::clamp((time - flight_->start) / kFlightSeconds, 0.0, 1.0);
+  camera_ = between(flight_->from, flight_->to, t * t * (3 - 2 * t));
+  if (t < 1) return;
+  camera_ = flight_->to;  // to the bit
+  flight_.reset();
+}
+
+void Editor::fly_to(const render::Camera& to) {
+  if (motion_ == Motion::instant)
+    camera_ = to;
+  else
+    flight_ = Flight{camera_, to, time_};
+}
+
+}  // namespace isorelax::editor
