@@ -73,7 +73,7 @@ void draw_help(const Ui& ui) {
   ImGui::Dummy({0, ui.px(4)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(4)});
   ImGui::Columns(3, "keys", false);
-  draw_shortcut_group(ui, "Smoothing");
+  draw_shortcut_group(ui, "Smoothing and moving");
   draw_shortcut_group(ui, "Inspect");
   ImGui::NextColumn();
   draw_shortcut_group(ui, "View");

@@ -38,7 +38,13 @@ void draw_time(const Ui& ui) {
   MotionChoices motion = ui.session.motion;
   constexpr const char* kEndTip =
       "Time at which the motion ends, in the time units of the field. Default: the field's period, else 1.";
-  row_label(ui, "End t", kEndTip);
+  constexpr const char* kStepTip =
+      "Length of a time step, in the time units of the field; of the first one where errors choose the "
+      "others.";
+  row_label(ui, "End, step", "Time at which the motion ends, and the length of a time step.");
+  const float gap = ui.px(6);
+  const float half = std::floor(0.5F * (ImGui::GetContentRegionAvail().x - gap));
+  ImGui::SetNextItemWidth(half);
   double end = end_time(motion);
   if (number_field(ui, "until", end) && end > 0 && std::isfinite(end)) {
     motion.until.reset();
@@ -46,12 +52,13 @@ void draw_time(const Ui& ui) {
     change_motion(ui, motion, "End");
   }
   tooltip(ui, kEndTip);
-  constexpr const char* kStepTip =
-      "Length of a time step, in the time units of the field; of the first one where errors choose the "
-      "others.";
-  row_label(ui, "Time step", kStepTip);
-  if (number_field(ui, "time-step", motion.step) && motion.step > 0 && std::isfinite(motion.step))
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(half);
+  double step = motion.step;
+  if (number_field(ui, "time-step", step) && step > 0 && std::isfinite(step)) {
+    motion.step = step;
     change_motion(ui, motion, "Time step");
+  }
   tooltip(ui, kStepTip);
   if (motion.field.kind == FieldKind::normal) return;
   constexpr std::array<std::string_view, 4> kLabels{"Fixed", "1e-4", "1e-6", "1e-8"};
@@ -146,14 +153,12 @@ void draw_motion_reference(const Ui& ui) {
 void draw_when(const Ui& ui) {
   MotionChoices motion = ui.session.motion;
   constexpr const char* kEveryTip = "Vertices are redistributed after every step, every second, every k-th.";
-  row_label(ui, "Every k steps", kEveryTip);
+  row_label(ui, "After every", kEveryTip);
   int every = static_cast<int>(motion.every);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(10), ui.px(6)});
-  if (ImGui::InputInt("##every", &every, 1, 10)) {
-    motion.every = static_cast<unsigned>(std::clamp(every, 1, 100000));
+  if (ImGui::InputScalar("##every", ImGuiDataType_S32, &every) && every > 0) {
+    motion.every = static_cast<unsigned>(every);
     change_motion(ui, motion, "Every");
   }
-  ImGui::PopStyleVar();
   end_motion_edit(ui);
   mark(ui, "every");
   tooltip(ui, kEveryTip);
@@ -228,8 +233,8 @@ void draw_volume(const Ui& ui, MotionChoices& motion) {
 }
 
 void draw_details(const Ui& ui) {
-  constexpr std::array<std::string_view, 3> kMoves{"none", "in tangent planes", "on the carrier"};
-  constexpr std::array<std::string_view, 2> kMethods{"Runge-Kutta", "face offsetting"};
+  constexpr std::array<std::string_view, 3> kMoves{"none", "tangent", "carrier"};
+  constexpr std::array<std::string_view, 2> kMethods{"Runge-Kutta", "offset faces"};
   MotionChoices motion = ui.session.motion;
   const MovingSurfaceOptions preset = motion_preset(motion.preset);
   if (choose_way(ui, "moves", "Moves",
@@ -254,12 +259,10 @@ void draw_details(const Ui& ui) {
   const bool tangent = way == Redistribution::tangent;
   int iterations =
       static_cast<int>(motion.iterations.value_or(tangent ? preset.iterations : preset.carrier.iterations));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(10), ui.px(6)});
-  if (ImGui::InputInt("##motion-iterations", &iterations, 1, 10)) {
-    motion.iterations = static_cast<unsigned>(std::clamp(iterations, 1, 10000));
+  if (ImGui::InputScalar("##motion-iterations", ImGuiDataType_S32, &iterations) && iterations > 0) {
+    motion.iterations = static_cast<unsigned>(iterations);
     change_motion(ui, motion, "Iterations");
   }
-  ImGui::PopStyleVar();
   end_motion_edit(ui);
   mark(ui, "motion-iterations");
   tooltip(ui, kTip);

@@ -191,7 +191,7 @@ void draw_motion_quality(const Ui& ui) {
                    {"smallest", [](const MotionEntry& m) { return m.measure.min_angle_deg; }}}},
                  0, height);
   draw_over_time(ui,
-                 {{.name = "motion-share", .title = "SHARE UNDER 15\xC2\xB0", .format = "%.2f", .unit = " %"},
+                 {{.name = "motion-share", .title = "SHARE UNDER 15\xC2\xB0, %", .format = "%.2f"},
                   {{"share", [](const MotionEntry& m) { return 100 * m.measure.below_15_deg; }}}},
                  1, height);
   draw_over_time(ui,
@@ -203,7 +203,7 @@ void draw_motion_quality(const Ui& ui) {
                   {{"ratio", [](const MotionEntry& m) { return m.measure.area_max_over_min; }}}},
                  1, height);
   draw_over_time(ui,
-                 {{.name = "motion-volume", .title = "VOLUME CHANGE", .format = "%.4g", .unit = " %"},
+                 {{.name = "motion-volume", .title = "VOLUME CHANGE, %", .format = "%.4g"},
                   {{"volume", [](const MotionEntry& m) { return 100 * m.volume_change; }}}},
                  0.01, height);
   TimePlot off{{.name = "motion-off", .title = "OFF THE SURFACE", .format = "%.3g"},

@@ -187,7 +187,6 @@ void draw_task(const Ui& ui) {
       segmented(ui, "task", kTasks, static_cast<int>(ui.session.task), ImGui::GetContentRegionAvail().x);
   ImGui::EndDisabled();
   tooltip(ui, "Smooth the mesh, or carry it by a motion and redistribute its vertices on the way.");
-  ImGui::Dummy({0, ui.px(2)});
   if (choice >= 0) ui.command(model::SetTask{static_cast<model::Task>(choice)});
 }
 
@@ -240,8 +239,9 @@ void draw_run_buttons(const Ui& ui) {
              {.icon = Icon::reset, .width = width - gap - half, .height = height, .enabled = moved}))
     perform(ui, Action::reset);
   tooltip(ui, "Back to the mesh as opened. Can be undone.", keys_of(Action::reset));
-  if (button(ui, "copy-command-line", "Copy as command line",
-             {.look = ButtonLook::quiet, .width = width, .enabled = s.document != nullptr}))
+  if (button(
+          ui, "copy-command-line", "Copy as command line",
+          {.look = ButtonLook::quiet, .width = width, .height = ui.px(26), .enabled = s.document != nullptr}))
     perform(ui, Action::copy_command_line);
   tooltip(ui, "The same for a shell.", keys_of(Action::copy_command_line));
 }

@@ -11,15 +11,15 @@ constexpr Modifiers kControl{.control = true};
 constexpr Modifiers kShift{.shift = true};
 constexpr Modifiers kControlShift{.control = true, .shift = true};
 
-constexpr std::string_view kSmoothing = "Smoothing";
+constexpr std::string_view kSmoothing = "Smoothing and moving";
 constexpr std::string_view kInspect = "Inspect";
 constexpr std::string_view kView = "View";
 constexpr std::string_view kFile = "File and edit";
 
 constexpr std::array kShortcuts{
     Shortcut{Key::space, kPlain, Action::run_pause, "Space", "Run or pause", kSmoothing},
-    Shortcut{Key::right, kPlain, Action::step, "Right", "One iteration on", kSmoothing},
-    Shortcut{Key::left, kPlain, Action::step_back, "Left", "One iteration back", kSmoothing},
+    Shortcut{Key::right, kPlain, Action::step, "Right", "One iteration, or time step, on", kSmoothing},
+    Shortcut{Key::left, kPlain, Action::step_back, "Left", "One back", kSmoothing},
     Shortcut{Key::right, kShift, Action::next_stage, "Shift+Right", "To the next stage of the step",
              kSmoothing},
     Shortcut{Key::left, kShift, Action::previous_stage, "Shift+Left", "To the stage before", kSmoothing},
