@@ -141,6 +141,14 @@ void draw_memory(const Ui& ui) {
               "bit, when they are asked for.");
 }
 
+void draw_teach(const Ui& ui) {
+  if (button(ui, "teach", "Compare the three methods",
+             {.width = ImGui::GetContentRegionAvail().x, .enabled = ui.session.can_smooth()}))
+    ui.command(model::Teach{});
+  tooltip(ui,
+          "Runs Laplacian, angle-based and near-isometry smoothing from here and shows them side by side.");
+}
+
 }  // namespace
 
 void draw_runs(const Ui& ui) {
@@ -153,11 +161,7 @@ void draw_runs(const Ui& ui) {
   for (unsigned k = 0; k < s.timeline.branches.size(); ++k) draw_branch(ui, k);
   ImGui::PopStyleVar();
   ImGui::Dummy({0, ui.px(2)});
-  if (button(ui, "teach", "Compare the three methods",
-             {.width = ImGui::GetContentRegionAvail().x, .enabled = s.can_smooth()}))
-    ui.command(model::Teach{});
-  tooltip(ui,
-          "Runs Laplacian, angle-based and near-isometry smoothing from here and shows them side by side.");
+  if (s.task == model::Task::smooth) draw_teach(ui);
   draw_difference(ui);
   draw_traces(ui);
   draw_memory(ui);
