@@ -155,7 +155,27 @@ TEST_F(MotionTest, OtherSettingsBeginAnotherMotionAtTheSameStartAndBothGoOnToThe
   EXPECT_EQ(session.motion.preset, "balanced") << "a run brings its settings";
   act(Move{});
   EXPECT_EQ(timeline().cursor.branch, 0U);
-  EXPECT_EQ(shown(), straight(balanced).back());
+  const auto states = straight(balanced);
+  ASSERT_EQ(timeline().branches[0].tip() + 1, states.size());
+  EXPECT_EQ(shown(), states.back());
+  act(Seek{6, {}});
+  EXPECT_EQ(shown(), states[6]);
+}
+
+TEST_F(MotionTest, MotionsStandSideBySideAtTheSameTime) {
+  open_sphere();
+  set({"field", "paper:0.6", "step", "0.05"});
+  act(Move{});
+  set({"field", "paper:0.6", "step", "0.1", "preset", "none"});
+  act(Move{});
+  act(ShowBranches{{0}});
+  act(Seek{2, {}});
+  EXPECT_NEAR(session.moment().time, 0.2, 1e-12);
+  ASSERT_EQ(session.other_states.size(), 1U);
+  const auto beside = session.other_states[0]->positions();
+  act(Seek{4, 0U});
+  EXPECT_NEAR(session.moment().time, 0.2, 1e-12);
+  EXPECT_TRUE(std::ranges::equal(shown(), beside));
 }
 
 TEST_F(MotionTest, ASmoothedMeshMovesFromWhereItStandsAndAMovedOneIsNotSmoothed) {
