@@ -100,10 +100,10 @@ struct MovingVertex {
   Vec3 by_motion = Vec3::Zero();          ///< where the motion alone would have taken it from `before`
   Vec3 by_redistribution = Vec3::Zero();  ///< the rest
 };
-/// A triangle of a moving surface as it stands, against its reference.
+/// A triangle of a moving surface in the step to where it stands.
 struct MovingTriangle {
-  TriangleExplanation now;  ///< its corners' moves are those of the step that led there
-  double area_start = 0;    ///< at the start of the motion, squared length units
+  TriangleExplanation step;
+  double area_start = 0;  ///< at the start of the motion, squared length units
 };
 struct MotionInspected {
   std::uint64_t number = 0;  ///< of the request

@@ -227,30 +227,6 @@ void move_and_report(const JobContext& context, const MotionRequest& request) {
   context.publish(MotionEnded{reporter.steps(), wanted_more, reporter.broken_by()});
 }
 
-MovingTriangle look_at_triangle(const SmoothingProblem& problem, std::span<const Vec3> start,
-                                std::span<const Vec3> before, std::span<const Vec3> now, Index t) {
-  StepRecord record;
-  record.shape.resize(problem.triangle_count());
-  record.area = record.energy = record.shape;
-  record.displacement.assign(now.size(), Vec3::Zero());
-  record.alpha.assign(now.size(), 1);
-  record.limits.assign(now.size(), 0);
-  const Triangle& v = problem.triangles[t];
-  const std::array<Vec3, 3> x{now[v[0]], now[v[1]], now[v[2]]};
-  if (area_vector(x[0], x[1], x[2]).norm() > 0) {
-    const TriangleEnergy energy = evaluate_energy(x, problem.reference[t], problem.weights);
-    record.shape[t] = energy.shape;
-    record.area[t] = energy.area;
-    record.energy[t] = energy.energy;
-  } else {
-    record.shape[t] = record.area[t] = record.energy[t] = std::numeric_limits<double>::infinity();
-  }
-  MovingTriangle triangle{explain_triangle(problem, now, record, t),
-                          0.5 * area_vector(start[v[0]], start[v[1]], start[v[2]]).norm()};
-  for (CornerMove& corner : triangle.now.corners) corner.move = now[corner.vertex] - before[corner.vertex];
-  return triangle;
-}
-
 }  // namespace
 
 StepRecord record_of_motion(std::span<const Vec3> before, std::span<const Vec3> after) {
@@ -289,11 +265,14 @@ Engine::Job motion_inspect_job(MotionInspectRequest request) {
       vertex.by_redistribution = now[v] - before[v] - vertex.by_motion;
       inspected.vertex = vertex;
     }
-    if (request.triangle && recording.motion->measured_by)
-      inspected.triangle = look_at_triangle(*recording.motion->measured_by, recording.trace().positions,
-                                            before, now, *request.triangle);
-    else if (request.triangle)
+    if (request.triangle && recording.motion->measured_by) {
+      const Triangle& v = recording.trace().triangles[*request.triangle];
+      const std::vector<Vec3>& start = recording.trace().positions;
+      inspected.triangle = {compare_triangle(*recording.motion->measured_by, before, now, *request.triangle),
+                            0.5 * area_vector(start[v[0]], start[v[1]], start[v[2]]).norm()};
+    } else if (request.triangle) {
       inspected.unknown = "The mesh in which the motion begins has no reference to measure against.";
+    }
     context.publish(std::move(inspected));
   };
 }

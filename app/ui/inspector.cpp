@@ -126,7 +126,7 @@ void draw_triangle(const Ui& ui, Index triangle) {
   text_in(ui.fonts.small, color::kTextFaint, step_text(s) + rank);
   wrapped(ui.fonts.text, color::kText, triangle_sentence(*e));
   ImGui::Dummy({0, ui.px(2)});
-  if (s.inspection.step) draw_triangles(ui, *e, *s.inspection.step->before, ui.px(150));
+  draw_triangles(ui, *e, ui.px(150));
   draw_triangle_sections(ui, *e);
 }
 

@@ -14,8 +14,8 @@ namespace isorelax::ui {
 /// The triangles around a vertex, flat in its tangent plane, before the step, with the moves of its stages
 /// and the way it came.
 void draw_ring(const Ui& ui, const VertexExplanation& e, float height);
-/// A triangle of these positions, the same after its moves, and its reference triangle, to one scale.
-void draw_triangles(const Ui& ui, const TriangleExplanation& e, std::span<const Vec3> x, float height);
+/// A triangle before and after a step and its reference triangle, to one scale.
+void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height);
 
 /// The sections of the inspector.
 void draw_move_section(const Ui& ui, const VertexExplanation& e);

@@ -90,10 +90,11 @@ void draw_way(const Ui& ui) {
 }
 
 std::string share_sentence(const model::MovingTriangle& t) {
-  std::string text = "Its smallest angle is " + number_text("%.2f", t.now.before.min_angle_deg) + "\xC2\xB0";
+  std::string text =
+      "Its smallest angle is " + number_text("%.2f", t.step.after.metrics.min_angle_deg) + "\xC2\xB0";
   if (t.area_start > 0)
-    text +=
-        ", its area " + number_text("%.3g", t.now.before.area / t.area_start) + " \xC3\x97 that at the start";
+    text += ", its area " + number_text("%.3g", t.step.after.metrics.area / t.area_start) +
+            " \xC3\x97 that at the start";
   return text + ".";
 }
 
@@ -127,12 +128,12 @@ void draw_moving_triangle(const Ui& ui) {
     return;
   }
   const auto& t = s.inspection.moving_triangle;
-  if (is_waiting(ui, t && t->now.triangle == *s.selected_triangle)) return;
+  if (is_waiting(ui, t && t->step.triangle == *s.selected_triangle)) return;
   wrapped(ui.fonts.text, color::kText, share_sentence(*t));
   mark_area(ui, "why", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
   ImGui::Dummy({0, ui.px(2)});
-  draw_triangles(ui, t->now, s.current->positions(), ui.px(150));
-  draw_triangle_sections(ui, t->now);
+  draw_triangles(ui, t->step, ui.px(150));
+  draw_triangle_sections(ui, t->step);
   value_row(ui, number_row("triangle/area-start", "Area at the start", t->area_start, "",
                            "When the motion began, squared units of the file."));
 }

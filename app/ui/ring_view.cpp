@@ -8,16 +8,6 @@
 namespace isorelax::ui {
 namespace {
 
-using Outline = std::array<std::array<double, 2>, 3>;
-
-// The triangle in a plane, its first side along x.
-Outline flatten(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 side = b - a, other = c - a;
-  const double length = side.norm();
-  if (!(length > 0)) return {};
-  return {{{0, 0}, {length, 0}, {other.dot(side) / length, other.cross(side).norm() / length}}};
-}
-
 // A plane seen from above, fitted into a rectangle.
 struct Sheet {
   Vec3 origin = Vec3::Zero(), right = Vec3::UnitX(), up = Vec3::UnitY();
@@ -134,21 +124,16 @@ void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
       {rect.low.x + ui.px(10), rect.high.y - ui.px(20)});
 }
 
-void draw_triangles(const Ui& ui, const TriangleExplanation& e, std::span<const Vec3> x, float height) {
-  const Triangle& corners = ui.session.document->mesh().triangles[e.triangle];
+void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height) {
   const Rect rect = begin_picture(ui, "triangles", height);
-  // All flat, the first side along the picture, to one scale.
-  const auto moved = [&](unsigned k) -> Vec3 { return x[corners[k]] + e.corners.at(k).move; };
-  const Outline before = flatten(x[corners[0]], x[corners[1]], x[corners[2]]);
-  const Outline after = flatten(moved(0), moved(1), moved(2));
   double reach = 0;
-  for (const Outline& points : {before, after, e.reference})
+  for (const FlatTriangle& points : {e.before.outline, e.after.outline, e.reference})
     for (const auto& p : points)
       for (const auto& q : points) reach = std::max({reach, std::abs(p[0] - q[0]), std::abs(p[1] - q[1])});
   if (!(reach > 0)) return;
   const float scale = static_cast<float>(std::min(0.27 * rect.width(), 1.0 * height - ui.px(48)) / reach);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto show = [&](const Outline& points, float middle, ImU32 ink, const char* label) {
+  const auto show = [&](const FlatTriangle& points, float middle, ImU32 ink, const char* label) {
     std::array<ImVec2, 3> at;
     const auto [left, right] = std::minmax({points[0][0], points[1][0], points[2][0]});
     const auto [low, high] = std::minmax({points[0][1], points[1][1], points[2][1]});
@@ -161,8 +146,8 @@ void draw_triangles(const Ui& ui, const TriangleExplanation& e, std::span<const 
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize,
                  {std::floor(middle - 0.5F * width), rect.high.y - ui.px(20)}, color::kTextDim, label);
   };
-  show(before, rect.low.x + 0.18F * rect.width(), color::kTextDim, "before");
-  show(after, rect.low.x + 0.5F * rect.width(), color::kAccent, "after");
+  show(e.before.outline, rect.low.x + 0.18F * rect.width(), color::kTextDim, "before");
+  show(e.after.outline, rect.low.x + 0.5F * rect.width(), color::kAccent, "after");
   show(e.reference, rect.low.x + 0.82F * rect.width(), color::kSecond, "its reference");
 }
 

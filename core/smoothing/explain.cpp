@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "energy/triangle_energy.h"
@@ -98,30 +99,52 @@ void explain_gradient(const SmoothingProblem& problem, std::span<const Vec3> bef
 }
 
 /// A triangle in the plane with these cotangents of its angles and this doubled area.
-std::array<std::array<double, 2>, 3> lay_out(const ReferenceTriangle& r) {
+FlatTriangle lay_out(const ReferenceTriangle& r) {
   // The side between corners 0 and 1 has length c, the height over it h: d1 = c h and c = h (cot0 + cot1).
   const double h = std::sqrt(r.d1 / (r.cot[0] + r.cot[1]));
   return {{{0, 0}, {h * (r.cot[0] + r.cot[1]), 0}, {h * r.cot[0], h}}};
 }
 
-/// `energy` holds K, S and E of the triangle x.
-TriangleState state_of(const std::array<Vec3, 3>& x, const double (&energy)[3],
-                       const ReferenceTriangle& reference) {
+TriangleState state_of(const SmoothingProblem& problem, const std::array<Vec3, 3>& x, Index t) {
+  const ReferenceTriangle reference = problem.reference[t];
   TriangleState state;
-  state.shape = energy[0];
-  state.area = energy[1];
-  state.energy = energy[2];
+  const Vec3 side = x[1] - x[0], other = x[2] - x[0];
+  if (const double length = side.norm(); length > 0)
+    state.outline = {{{0, 0}, {length, 0}, {other.dot(side) / length, other.cross(side).norm() / length}}};
+  state.metrics = measure_triangle(x[0], x[1], x[2]);
+  if (state.metrics.area > 0) {
+    const TriangleEnergy energy = evaluate_energy(x, reference, problem.weights);
+    state.shape = energy.shape;
+    state.area = energy.area;
+    state.energy = energy.energy;
+  } else {
+    state.shape = state.area = state.energy = std::numeric_limits<double>::infinity();
+  }
   for (unsigned k = 0; k < 3; ++k) {
     const Vec3 a = x[next(k)] - x[k];
     const Vec3 b = x[previous(k)] - x[k];
     state.angles_deg[k] = 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b));
   }
-  state.metrics = measure_triangle(x[0], x[1], x[2]);
   // K = kappa + 1 / kappa with kappa the ratio of the two, and their product is D2 / D1.
   const double kappa = 0.5 * (state.shape + std::sqrt(std::max(0.0, state.shape * state.shape - 4)));
   const double determinant = 2 * state.metrics.area / reference.d1;
   state.singular_values = {std::sqrt(determinant * kappa), std::sqrt(determinant / kappa)};
   return state;
+}
+
+/// The triangle with the corners x before and y after.
+TriangleExplanation between(const SmoothingProblem& problem, const std::array<Vec3, 3>& x,
+                            const std::array<Vec3, 3>& y, Index t) {
+  TriangleExplanation e;
+  e.triangle = t;
+  e.treated = problem.treated[t] != 0;
+  e.before = state_of(problem, x, t);
+  e.after = state_of(problem, y, t);
+  for (unsigned k = 0; k < 3; ++k) e.corners[k] = {problem.triangles[t][k], y[k] - x[k]};
+  const ReferenceTriangle reference = problem.reference[t];
+  e.reference_area = 0.5 * reference.d1;
+  e.reference = lay_out(reference);
+  return e;
 }
 
 }  // namespace
@@ -172,26 +195,28 @@ GradientCheck check_gradients(const SmoothingProblem& problem, std::span<const V
 
 TriangleExplanation explain_triangle(const SmoothingProblem& problem, std::span<const Vec3> before,
                                      const StepRecord& record, Index triangle) {
-  TriangleExplanation e;
-  e.triangle = triangle;
-  e.treated = problem.treated[triangle] != 0;
   const auto x = corners_of(problem, before, triangle);
   auto y = x;
   for (unsigned k = 0; k < 3; ++k) {
     const Index v = problem.triangles[triangle][k];
-    const Vec3 move = record.alpha[v] * record.displacement[v];
-    e.corners[k] = {v, move, record.alpha[v], record.limits[v]};
-    y[k] = x[k] + move;
+    y[k] += record.alpha[v] * record.displacement[v];
   }
-  const ReferenceTriangle reference = problem.reference[triangle];
-  const double recorded[] = {record.shape[triangle], record.area[triangle], record.energy[triangle]};
-  e.before = state_of(x, recorded, reference);
-  const TriangleEnergy now = evaluate_energy(y, reference, problem.weights);
-  const double computed[] = {now.shape, now.area, now.energy};
-  e.after = state_of(y, computed, reference);
-  e.reference_area = 0.5 * reference.d1;
-  e.reference = lay_out(reference);
+  TriangleExplanation e = between(problem, x, y, triangle);
+  e.before.shape = record.shape[triangle];
+  e.before.area = record.area[triangle];
+  e.before.energy = record.energy[triangle];
+  for (CornerMove& corner : e.corners) {
+    corner.move = record.alpha[corner.vertex] * record.displacement[corner.vertex];
+    corner.alpha = record.alpha[corner.vertex];
+    corner.limits = record.limits[corner.vertex];
+  }
   return e;
+}
+
+TriangleExplanation compare_triangle(const SmoothingProblem& problem, std::span<const Vec3> before,
+                                     std::span<const Vec3> after, Index triangle) {
+  return between(problem, corners_of(problem, before, triangle), corners_of(problem, after, triangle),
+                 triangle);
 }
 
 }  // namespace isorelax

@@ -77,8 +77,12 @@ struct CornerMove {
   std::uint16_t limits = 0;
 };
 
+/// A triangle in a plane, its first side along x.
+using FlatTriangle = std::array<std::array<double, 2>, 3>;
+
 /// What a triangle is to the energy, at one moment.
 struct TriangleState {
+  FlatTriangle outline{};
   double shape = 0, area = 0, energy = 0;  ///< K, S and E
   TriangleMetrics metrics;
   std::array<double, 3> angles_deg{};
@@ -91,14 +95,17 @@ struct TriangleExplanation {
   bool treated = true;
   TriangleState before, after;  ///< K, S and E before are those of the record
   double reference_area = 0;
-  /// The reference triangle in a plane, its first side along x.
-  std::array<std::array<double, 2>, 3> reference{};
+  FlatTriangle reference{};
   std::array<CornerMove, 3> corners;
 };
 
 /// Precondition: the triangle exists.
 [[nodiscard]] TriangleExplanation explain_triangle(const SmoothingProblem& problem,
                                                    std::span<const Vec3> before, const StepRecord& record,
+                                                   Index triangle);
+/// The same between any two positions of the mesh, without a step that led from one to the other.
+[[nodiscard]] TriangleExplanation compare_triangle(const SmoothingProblem& problem,
+                                                   std::span<const Vec3> before, std::span<const Vec3> after,
                                                    Index triangle);
 
 }  // namespace isorelax
