@@ -65,6 +65,7 @@ void Editor::frame(const FrameOptions& options) {
   if (current_.drawn) image.texture = texture_id(current_.renderer.color_texture());
   if (before_.drawn) image.before = texture_id(before_.renderer.color_texture());
   for (const auto& other : others_) image.others.push_back(texture_id(other->renderer.color_texture()));
+  if (legend_) image.legend = texture_id(legend_->renderer.color_texture());
   carry_out(interface_.frame(
       session_,
       {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
@@ -77,8 +78,8 @@ void Editor::frame(const FrameOptions& options) {
 view::View Editor::present_view() const {
   const ui::Comparison& comparison = interface_.state().comparison;
   view::View view = view_of(session_, base_, camera_, pane(), scale_);
-  // In a narrow picture it would cover the mesh.
-  if (shows_others() && static_cast<float>(view.size.width) < 560 * scale_) view.legend = false;
+  // One for all of them stands beside them.
+  if (shows_others()) view.legend = false;
   if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
     return view;
   view.difference = true;
@@ -106,12 +107,20 @@ bool Editor::shows_others() const {
   return !session_.other_states.empty() && interface_.state().comparison.mode == ui::CompareMode::off;
 }
 
+// Pixels at the right of several pictures for the legend of all.
+int Editor::legend_strip() const {
+  const bool wanted =
+      shows_others() && session_.view.legend && session_.view.coloring != model::Coloring::none;
+  return wanted ? static_cast<int>(std::floor(ui::kLegendStrip * scale_)) : 0;
+}
+
 // What one picture of the viewport has: its part where several stand side by side.
 render::PictureSize Editor::pane() const {
   if (shows_others()) {
-    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size(), static_cast<float>(viewport_.width),
+    const int width = viewport_.width - legend_strip();
+    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size(), static_cast<float>(width),
                                       static_cast<float>(viewport_.height));
-    return {std::max(1, viewport_.width / grid.columns), std::max(1, viewport_.height / grid.rows)};
+    return {std::max(1, width / grid.columns), std::max(1, viewport_.height / grid.rows)};
   }
   if (interface_.state().comparison.mode != ui::CompareMode::side_by_side) return viewport_;
   return {std::max(1, viewport_.width / 2), viewport_.height};
@@ -195,6 +204,28 @@ void Editor::draw_others() {
   view.arrows = false;
   for (std::size_t k = 0; k < count; ++k)
     draw(*others_[k], {session_.document, session_.other_states[k], session_.original}, view);
+  draw_legend();
+}
+
+void Editor::draw_legend() {
+  if (legend_strip() == 0) {
+    legend_.reset();
+    return;
+  }
+  if (!legend_) legend_ = std::make_unique<KeptPicture>(loader_);
+  view::View view = present_view();
+  view.legend = true;
+  view.size = {legend_strip(), viewport_.height};
+  // The text is as large as in the pictures.
+  view.points = scale_;
+  render::Scene scene = legend_->scene.make(shown_now(), view);
+  scene.meshes.clear();
+  scene.notes.clear();
+  try {
+    legend_->renderer.draw(scene, camera_, view.size);
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
 }
 
 // Where a point of the viewport is in the picture that it is over.
@@ -205,7 +236,8 @@ std::array<float, 2> Editor::in_pane(float x, float y) const {
 }
 
 void Editor::pick(float x, float y) {
-  if (!session_.current || !current_.drawn) return;
+  if (!session_.current || !current_.drawn || x >= static_cast<float>(viewport_.width - legend_strip()))
+    return;
   const auto [at_x, at_y] = in_pane(x, y);
   const Shown shown = shown_now();
   // As it is drawn, but with all triangles: their numbers are asked for.

@@ -100,8 +100,10 @@ class Editor {
   [[nodiscard]] render::PictureSize pane() const;
   [[nodiscard]] Shown shown_now() const;
   [[nodiscard]] bool shows_others() const;
+  [[nodiscard]] int legend_strip() const;
   void draw_pictures();
   void draw_others();
+  void draw_legend();
   void pick(float x, float y);
   [[nodiscard]] std::array<float, 2> in_pane(float x, float y) const;
   void draw(KeptPicture& picture, const Shown& shown, const view::View& view);
@@ -120,6 +122,7 @@ class Editor {
   KeptPicture before_;
   render::GlLoader loader_;
   std::vector<std::unique_ptr<KeptPicture>> others_;  // of the branches beside the present one
+  std::unique_ptr<KeptPicture> legend_;               // theirs, where they have one
   Painter painter_;
   Partner partner_;
   SessionLog log_;

@@ -131,8 +131,14 @@ Grid grid_of(std::size_t pictures, float width, float height) {
 namespace {
 
 // The present run at the upper left, the others behind it, each with its name.
-void draw_grid(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+void draw_grid(const Ui& ui, Rect rect, const ViewportImage& image) {
   const model::Session& s = ui.session;
+  if (image.legend != nullptr) {
+    const float left = rect.high.x - std::floor(ui.px(kLegendStrip));
+    draw_part(image.legend, {{left, rect.low.y}, rect.high}, 0, 1);
+    mark_area(ui, "legend", {{left, rect.low.y}, rect.high});
+    rect.high.x = left;
+  }
   const Grid grid = grid_of(1 + image.others.size(), rect.width(), rect.height());
   const float width = std::floor(rect.width() / static_cast<float>(grid.columns));
   const float height = std::floor(rect.height() / static_cast<float>(grid.rows));

@@ -16,7 +16,10 @@ struct ViewportImage {
   ImTextureID texture = nullptr;
   ImTextureID before = nullptr;       ///< of what it is compared with
   std::vector<ImTextureID> others{};  ///< of the runs beside the present one
+  ImTextureID legend = nullptr;       ///< of them all, at the right, kLegendStrip wide
 };
+/// Points that the legend takes which several pictures share.
+inline constexpr float kLegendStrip = 124;
 
 /// How several pictures share the viewport.
 struct Grid {
