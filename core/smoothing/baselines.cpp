@@ -44,8 +44,8 @@ class Baseline : public GuardedSmoother {
   double find_tangents(std::span<const Vec3> positions, const Objective& here, StepRecord& record) {
     return sweep_.run(here, positions, [&](const TangentBatch& batch) {
       for (unsigned i = 0; i < batch.count; ++i) {
-        axes_[batch.first + i] = batch.axes[i];
-        record.gradient[batch.first + i] = batch.sums[i].gradient;
+        axes_[batch.vertices[i]] = batch.axes[i];
+        record.gradient[batch.vertices[i]] = batch.sums[i].gradient;
       }
     });
   }

@@ -89,7 +89,7 @@ void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord&
   detail.proposed = record.displacement;
   TangentSweep(problem_).run(here_, positions, [&](const TangentBatch& batch) {
     for (unsigned i = 0; i < batch.count; ++i) {
-      const Index v = batch.first + i;
+      const Index v = batch.vertices[i];
       const Mobility mobility = problem_.mobility[v];
       detail.dimensions[v] = static_cast<std::uint8_t>(mobility);
       detail.axis[v] = mobility == Mobility::none ? Vec3(Vec3::Zero()) : batch.axes[i];

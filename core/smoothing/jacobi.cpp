@@ -15,8 +15,8 @@ class JacobiSmoother : public GuardedSmoother {
     return sweep_.run(here, positions, [&](const TangentBatch& batch) {
       for (unsigned i = 0; i < batch.count; ++i) {
         const double stiffness = batch.sums[i].stiffness;
-        record.gradient[batch.first + i] = batch.sums[i].gradient;
-        set_move(record, batch.first + i,
+        record.gradient[batch.vertices[i]] = batch.sums[i].gradient;
+        set_move(record, batch.vertices[i],
                  stiffness > 0 ? Vec3(-relaxation_ / stiffness * batch.gradients[i]) : Vec3::Zero());
       }
     });

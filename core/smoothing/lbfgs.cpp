@@ -36,12 +36,12 @@ class LbfgsSmoother : public GuardedSmoother {
     const bool keeps_blocks = continues() && in_fixed_planes_ && steps_ % kPreconditionerSteps != 0;
     const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {
       for (unsigned i = 0; i < batch.count; ++i) {
-        record.gradient[batch.first + i] = batch.sums[i].gradient;
-        tangent_[batch.first + i] = batch.gradients[i];
+        record.gradient[batch.vertices[i]] = batch.sums[i].gradient;
+        tangent_[batch.vertices[i]] = batch.gradients[i];
       }
       if (keeps_blocks) return;
       const auto blocks = newton_blocks(problem_, here, batch);
-      for (unsigned i = 0; i < batch.count; ++i) blocks_[batch.first + i] = blocks[i];
+      for (unsigned i = 0; i < batch.count; ++i) blocks_[batch.vertices[i]] = blocks[i];
     });
     if (!continues()) {
       memory_.start_anew();

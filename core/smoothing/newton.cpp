@@ -24,7 +24,7 @@ class NewtonSmoother : public GuardedSmoother {
     const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {
       const auto blocks = newton_blocks(problem_, here, batch);
       for (unsigned i = 0; i < batch.count; ++i) {
-        const Index v = batch.first + i;
+        const Index v = batch.vertices[i];
         record.gradient[v] = batch.sums[i].gradient;
         if (has_needle(here, v)) {
           set_move(record, v,

@@ -150,7 +150,7 @@ std::array<NewtonBlock, kLanes> newton_blocks(const SmoothingProblem& problem, c
     corners.count = 0;
   };
   for (unsigned i = 0; i < batch.count; ++i) {
-    const Index v = batch.first + i;
+    const Index v = batch.vertices[i];
     if (problem.mobility[v] == Mobility::none) continue;
     blocks[i] = NewtonBlock(problem.mobility[v], batch.axes[i]);
     for (const Corner c : problem.topology.corners_of(v)) {

@@ -184,11 +184,14 @@ void Objective::sum_blocks() {
 const StepTotals& Objective::evaluate(std::span<const Vec3> positions) {
   at_.clear();
   parallel_for_blocks(problem_->triangle_count(), problem_->threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += kLanes) {
-      evaluate_batch(positions, BatchIds::of_range(first, end));
-    }
-    sum_block(begin / kBlockSize);
+    for (std::size_t first = begin; first < end; first += kLanes)
+      evaluate_batch(positions, BatchIds::in_order(problem_->order.triangles, first, end));
+    if (problem_->order.triangles.empty()) sum_block(begin / kBlockSize);
   });
+  if (!problem_->order.triangles.empty()) {
+    parallel_for_blocks(problem_->triangle_count(), problem_->threads,
+                        [&](std::size_t begin, std::size_t) { sum_block(begin / kBlockSize); });
+  }
   sum_blocks();
   return totals_;
 }

@@ -322,6 +322,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .surface = {},
                            .initial_normals = {},
                            .worst_angles = {},
+                           .order = VisitOrder(positions, triangles),
                            .mean_edge_length = 0,
                            .threads = options.threads,
                            .notes = {}};

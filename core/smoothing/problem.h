@@ -9,6 +9,7 @@
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
 #include "smoothing/untangle.h"
+#include "smoothing/visit_order.h"
 #include "smoothing/worst_angles.h"
 #include "surface/frozen_surface.h"
 #include "surface/vertex_class.h"
@@ -109,6 +110,7 @@ struct SmoothingProblem {
   /// 120 degrees where none is larger than 95. No limit where areas count more than angles or the reference
   /// is not equilateral.
   WorstAngles worst_angles;
+  VisitOrder order;
   double mean_edge_length = 0;
   unsigned threads = 0;
   /// What was pinned and left out, in words for the user.

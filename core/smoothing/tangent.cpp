@@ -37,10 +37,11 @@ Vec3 tangent_axis(const SmoothingProblem& problem, std::span<const Vec3> positio
                  : Vec3(decompose(covariance).vectors.col(0));
 }
 
-void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const {
-  const Index end = std::min(batch.first + 2 * kLanes, problem_.vertex_count());
-  for (Index next = batch.first + kLanes; next < end; ++next) here.prefetch(next);
-  for (unsigned i = 0; i < batch.count; ++i) batch.sums[i] = here.gather(batch.first + i);
+void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch,
+                          std::size_t first) const {
+  const std::size_t end = std::min<std::size_t>(first + 2 * kLanes, problem_.vertex_count());
+  for (std::size_t next = first + kLanes; next < end; ++next) here.prefetch(visited(next));
+  for (unsigned i = 0; i < batch.count; ++i) batch.sums[i] = here.gather(batch.vertices[i]);
   if (problem_.plane_normal) {
     batch.axes.fill(*problem_.plane_normal);
   } else if (!problem_.surface) {
@@ -51,7 +52,7 @@ void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions
     batch.axes.fill(Vec3::Zero());
   }
   for (unsigned i = 0; i < batch.count; ++i) {
-    const Index v = batch.first + i;
+    const Index v = batch.vertices[i];
     const Mobility mobility = problem_.mobility[v];
     if (follows_surface(problem_, v)) {
       batch.axes[i] = problem_.surface->tangent_axis(positions[v], class_on_surface(problem_, v),

@@ -29,9 +29,9 @@ inline Vec3 tangent_part(Mobility mobility, const Vec3& axis, const Vec3& g) {
 /// What spans the tangent space of one vertex that may move: as TangentBatch::axes.
 Vec3 tangent_axis(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex);
 
-/// Gradients and tangent spaces of up to eight vertices, from `first` on.
+/// Gradients and tangent spaces of up to eight vertices.
 struct TangentBatch {
-  Index first = 0;
+  std::array<Index, kLanes> vertices{};
   unsigned count = 0;
   std::array<VertexSums, kLanes> sums;
   /// What spans the tangent space: the unit normal of a plane, the unit direction of a line; unused where a
@@ -56,9 +56,9 @@ class TangentSweep {
       double squares = 0;
       TangentBatch batch;
       for (std::size_t first = begin; first < end; first += kLanes) {
-        batch.first = static_cast<Index>(first);
         batch.count = static_cast<unsigned>(std::min<std::size_t>(kLanes, end - first));
-        gather(here, positions, batch);
+        for (unsigned i = 0; i < batch.count; ++i) batch.vertices[i] = visited(first + i);
+        gather(here, positions, batch, first);
         for (unsigned i = 0; i < batch.count; ++i) squares += batch.gradients[i].squaredNorm();
         body(std::as_const(batch));
       }
@@ -68,7 +68,13 @@ class TangentSweep {
   }
 
  private:
-  void gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const;
+  /// The vertex that comes at this place.
+  [[nodiscard]] Index visited(std::size_t place) const {
+    return problem_.order.vertices.empty() ? static_cast<Index>(place) : problem_.order.vertices[place];
+  }
+  /// `first`: the place of the batch' first vertex.
+  void gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch,
+              std::size_t first) const;
   [[nodiscard]] double norm() const;
 
   const SmoothingProblem& problem_;

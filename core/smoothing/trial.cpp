@@ -17,9 +17,10 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
 void Trial::start(std::span<const Vec3> from, StepRecord& record) {
   from_ = from;
   to_.resize(from.size());
+  const std::vector<Index>& order = problem_.order.vertices;
   if (problem_.surface) tangent_ = record.displacement;
   parallel_for_blocks(from.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) place(record, static_cast<Index>(v));
+    for (std::size_t i = begin; i < end; ++i) place(record, order.empty() ? static_cast<Index>(i) : order[i]);
   });
   take_touched();
 }

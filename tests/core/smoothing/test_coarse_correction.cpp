@@ -21,7 +21,7 @@ struct Prepared {
     here.evaluate(mesh.positions);
     TangentSweep(problem).run(here, mesh.positions, [&](const TangentBatch& batch) {
       const auto made = newton_blocks(problem, here, batch);
-      for (unsigned i = 0; i < batch.count; ++i) blocks[batch.first + i] = made[i];
+      for (unsigned i = 0; i < batch.count; ++i) blocks[batch.vertices[i]] = made[i];
     });
   }
 
