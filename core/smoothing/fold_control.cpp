@@ -63,6 +63,30 @@ void area_along_move(const EdgeBatch& x, const EdgeBatch& y, AreaBatch& out) {
   }
 }
 
+struct NormalBatch {
+  Lanes x, y, z;
+
+  void load(std::span<const Vec3> normals, const BatchIds& ids) {
+    for (unsigned i = 0; i < kLanes; ++i) {
+      const Vec3& n = normals[ids.at[i]];
+      x.at[i] = n[0], y.at[i] = n[1], z.at[i] = n[2];
+    }
+  }
+};
+
+/// The cosine between area vectors and unit normals, with its sign, squared; not a number without area.
+ISORELAX_VECTOR_CLONES
+void signed_squared_cosines(const EdgeBatch& e, const NormalBatch& normals, Lanes& out) {
+  for (unsigned i = 0; i < kLanes; ++i) {
+    const double ax = e.e1x.at[i], ay = e.e1y.at[i], az = e.e1z.at[i];
+    const double bx = e.e2x.at[i], by = e.e2y.at[i], bz = e.e2z.at[i];
+    const double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    const double along = nx * normals.x.at[i] + ny * normals.y.at[i] + nz * normals.z.at[i];
+    const double absolute = along < 0 ? -along : along;
+    out.at[i] = along * absolute / (nx * nx + ny * ny + nz * nz);
+  }
+}
+
 }  // namespace
 
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y) {
@@ -88,24 +112,24 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
   y.load(trial.to(), problem_.triangles, ids);
   area_along_move(x, y, areas);
   measure_angles(y, angles);
+  Lanes cosines;
+  const bool may_turn = !problem_.initial_normals.empty();
+  if (may_turn) {
+    NormalBatch normals;
+    normals.load(problem_.initial_normals, ids);
+    signed_squared_cosines(y, normals, cosines);
+  }
   for (unsigned i = 0; i < ids.count; ++i) {
     const Index t = ids.at[i];
     const AreaAlongMove p{areas.c.at[i], areas.b.at[i], areas.q.at[i]};
     double limit = share(p);
     const bool too_sharp = !(angles.smallest_cot.at[i] <= problem_.worst_angles.smallest_cot) ||
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
-    if (too_sharp || turns_away(trial, t)) limit = std::min(limit, 0.5);
+    const bool turned = may_turn && !(cosines.at[i] > kLeastCosine * kLeastCosine);
+    if (too_sharp || turned) limit = std::min(limit, 0.5);
     if (!(limit < 1) || problem_.treated[t] == 0) continue;
     for (const Index v : problem_.triangles[t]) cuts.push_back({v, t, limit});
   }
-}
-
-bool FoldControl::turns_away(const Trial& trial, Index t) const {
-  if (problem_.initial_normals.empty()) return false;
-  const Triangle& v = problem_.triangles[t];
-  const Vec3 area = area_vector(trial.to()[v[0]], trial.to()[v[1]], trial.to()[v[2]]);
-  const double along = area.dot(problem_.initial_normals[t]);
-  return !(along > 0 && along * along > kLeastCosine * kLeastCosine * area.squaredNorm());
 }
 
 std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {

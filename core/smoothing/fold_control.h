@@ -37,7 +37,6 @@ class FoldControl {
     double share;
   };
   void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;
-  [[nodiscard]] bool turns_away(const Trial& trial, Index t) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
 
