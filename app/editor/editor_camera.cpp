@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "editor/editor.h"
@@ -39,9 +40,10 @@ render::Camera Editor::framed() {
   if (branch == nullptr || branch->box.isEmpty())
     return render::fit(camera_, session_.current->positions(), pane(), fit_options());
   framed_box_ = branch->box;
-  std::vector<Vec3> corners;
+  std::array<Vec3, 8> corners;
   for (int k = 0; k < 8; ++k)
-    corners.push_back(branch->box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+    corners.at(static_cast<std::size_t>(k)) =
+        branch->box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k));
   return render::fit(camera_, corners, pane(), fit_options());
 }
 

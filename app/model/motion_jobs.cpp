@@ -227,6 +227,11 @@ void move_and_report(const JobContext& context, const MotionRequest& request) {
   context.publish(MotionEnded{reporter.steps(), wanted_more, reporter.broken_by()});
 }
 
+MotionShare& share_of(MotionTrack& track) {
+  if (!track.share) track.share.emplace(track.setup);
+  return *track.share;
+}
+
 }  // namespace
 
 StepRecord record_of_motion(std::span<const Vec3> before, std::span<const Vec3> after) {
@@ -260,8 +265,7 @@ Engine::Job motion_inspect_job(MotionInspectRequest request) {
     if (request.vertex) {
       const Index v = *request.vertex;
       MovingVertex vertex{v, before[v], now[v], Vec3::Zero(), Vec3::Zero()};
-      if (request.step > 0)
-        vertex.by_motion = MotionShare(recording.motion->setup).of(before, now, request.place, v);
+      if (request.step > 0) vertex.by_motion = share_of(*recording.motion).of(before, now, request.place, v);
       vertex.by_redistribution = now[v] - before[v] - vertex.by_motion;
       inspected.vertex = vertex;
     }
@@ -280,7 +284,7 @@ Engine::Job motion_inspect_job(MotionInspectRequest request) {
 Engine::Job motion_follow_job(MotionFollowRequest request) {
   return [request = std::move(request)](const JobContext& context) {
     Recording& recording = *request.recording;
-    MotionShare share(recording.motion->setup);
+    MotionShare& share = share_of(*recording.motion);
     std::vector<Vec3> before = recording.positions_at(0);
     const Vec3 start = before[request.vertex];
     MovingPath path{request.branch, request.vertex, {0}, {0}, {0}};

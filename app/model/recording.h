@@ -7,6 +7,7 @@
 
 #include "model/mesh_state.h"
 #include "motion/motion_run.h"
+#include "motion/motion_share.h"
 #include "trace/recorder.h"
 
 namespace isorelax::model {
@@ -18,6 +19,7 @@ struct MotionTrack {
   std::unique_ptr<MotionRun> run;  ///< in that state; null while another one is being made
   /// What its triangles are measured by: the motion's reference. Null where the start cannot be.
   std::unique_ptr<const SmoothingProblem> measured_by;
+  std::optional<MotionShare> share;  ///< made when a vertex is looked at
 };
 
 /// The iterations of one branch, in core/trace's form: positions as deltas, and a few whole ones in between

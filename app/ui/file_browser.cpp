@@ -361,8 +361,9 @@ void ask_for_file(const Ui& ui, FilePurpose purpose) {
     if (purpose == FilePurpose::save_script) browser.name = stem + ".script";
     if (purpose == FilePurpose::save_trace) browser.name = stem + ".trace";
     if (purpose == FilePurpose::save_mesh)
-      browser.name =
-          ui.session.save_path ? path.filename().string() : stem + "-smooth" + path.extension().string();
+      browser.name = ui.session.save_path ? path.filename().string()
+                                          : stem + (ui.session.moving() != nullptr ? "-moved" : "-smooth") +
+                                                path.extension().string();
     if (browser.folder.empty()) folder = fs::absolute(path, error).parent_path();
   }
   enter(browser, folder);

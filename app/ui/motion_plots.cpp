@@ -16,6 +16,11 @@ using Measured = std::function<double(const MotionEntry&)>;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Percent; of a surface that encloses no volume there is none.
+double volume_change(const MotionEntry& moment) {
+  return moment.encloses ? 100 * moment.volume_change : kUnknown;
+}
+
 double largest_error(const MotionEntry& moment) {
   return moment.error ? moment.error->max : kUnknown;
 }
@@ -43,8 +48,7 @@ std::vector<MotionFigure> motion_figures() {
        [](const MotionEntry& m) { return static_cast<double>(m.measure.folded_edges); }, "%.0f"},
       {"Area", "Of the whole surface, squared units of the file.",
        [](const MotionEntry& m) { return m.measure.area; }, "%.4g"},
-      {"Volume change", "Of the enclosed volume since the start of the motion.",
-       [](const MotionEntry& m) { return 100 * m.volume_change; }, "%.4f", " %"},
+      {"Volume change", "Of the enclosed volume since the start of the motion.", volume_change, "%.4f", " %"},
       {"Off the surface",
        "Largest distance between the mesh and the surface that the motion made of the start, at vertices and "
        "middles of edges; of tangent moves that of one step. Units of the file.",
@@ -202,10 +206,11 @@ void draw_motion_quality(const Ui& ui) {
                    .scale = PlotScale::logarithmic},
                   {{"ratio", [](const MotionEntry& m) { return m.measure.area_max_over_min; }}}},
                  1, height);
-  draw_over_time(ui,
-                 {{.name = "motion-volume", .title = "VOLUME CHANGE, %", .format = "%.4g"},
-                  {{"volume", [](const MotionEntry& m) { return 100 * m.volume_change; }}}},
-                 0.01, height);
+  if (ui.session.moment().encloses)
+    draw_over_time(ui,
+                   {{.name = "motion-volume", .title = "VOLUME CHANGE, %", .format = "%.4g"},
+                    {{"volume", volume_change}}},
+                   0.01, height);
   TimePlot off{{.name = "motion-off", .title = "OFF THE SURFACE", .format = "%.3g"},
                {{"largest", [](const MotionEntry& m) { return m.report.deviation.max; }},
                 {"mean", [](const MotionEntry& m) { return m.report.deviation.mean; }}}};

@@ -82,6 +82,7 @@ MotionEntry MotionRun::measure(Detail detail) const {
   entry.time = state.time;
   entry.measure =
       measure_motion(state.positions, setup_.start.triangles, surface_.topology(), setup_.options.threads);
+  entry.encloses = encloses_;
   if (encloses_) entry.volume_change = (entry.measure.volume - start_volume_) / start_volume_;
   entry.report = surface_.report();
   entry.error = known_error();

@@ -14,6 +14,7 @@ struct MotionEntry {
   double time = 0;
   MotionMeasure measure;
   double volume_change = 0;  ///< (now - start) / start; 0 for a start that encloses none
+  bool encloses = false;     ///< the start encloses a volume
   MovingReport report;
   std::optional<Distances>
       error;  ///< of the vertices from the exact surface, where that is known, length units

@@ -42,7 +42,7 @@ TEST_F(MotionEditorTest, AFewKeysAndClicksMoveTheOpenMeshAndGoThroughItsTime) {
   EXPECT_DOUBLE_EQ(session().moment().time, 1);
   const Image end = part("viewport");
   EXPECT_FALSE(start == end);
-  for (const char* plot : {"motion-angles", "motion-share", "motion-areas", "motion-volume", "motion-off"})
+  for (const char* plot : {"motion-angles", "motion-share", "motion-areas", "motion-off"})
     EXPECT_TRUE(shows(plot)) << plot;
   EXPECT_FALSE(shows("stage/Gradient")) << "its steps have no stages";
   press(ui::Key::left);
