@@ -215,7 +215,7 @@ void draw_run_buttons(const Ui& ui) {
   const float height = ui.px(34);
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ui.px(8);
-  ImGui::Dummy({0, ui.px(2)});
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.px(2));
   if (button(ui, "run", run_label(s),
              {.icon = running ? Icon::pause : Icon::run,
               .look = ButtonLook::accent,
