@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -21,7 +22,7 @@ std::size_t triangle_count() {
   return wanted != nullptr ? std::stoul(wanted) : 100000;
 }
 
-TEST(Responsiveness, NoFrameWaitsForLoadingSmoothingOrSaving) {
+TEST(Responsiveness, NoFrameWaitsForLoadingSmoothingMovingOrSaving) {
   const test::TemporaryFolder folder;
   GenerateOptions options;
   options.triangles = triangle_count();
@@ -74,6 +75,15 @@ TEST(Responsiveness, NoFrameWaitsForLoadingSmoothingOrSaving) {
   model::execute(session, model::SaveFile{folder / "saved.ply"});
   work_through("save", idle);
   EXPECT_FALSE(session.has_unsaved_changes());
+  MotionChoices motion;
+  read_words(std::array<std::string, 6>{"field", "shear", "step", "0.5", "preset", "none"}, motion);
+  model::execute(session, model::SetMotion{motion, "Motion"});
+  model::execute(session, model::Move{});
+  work_through("move", idle);
+  ASSERT_NE(session.moving(), nullptr);
+  EXPECT_EQ(session.moment().time, 1);
+  model::execute(session, model::Seek{session.current->iteration - 1, {}});
+  work_through("seek", idle);
 }
 
 }  // namespace
