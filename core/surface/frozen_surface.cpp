@@ -257,8 +257,7 @@ Projection FrozenSurface::project(const Vec3& point, VertexClass vertex_class,
 
 Vec3 FrozenSurface::tangent_axis(const Vec3& point, VertexClass vertex_class,
                                  const SurfaceAnchor& from) const {
-  if (vertex_class == VertexClass::smooth || from.edge == kNone)
-    return normal(walk(point, from.triangle));
+  if (vertex_class == VertexClass::smooth || from.edge == kNone) return normal(walk(point, from.triangle));
   return curves_.direction_at(point, from.edge);
 }
 
