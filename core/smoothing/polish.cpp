@@ -54,7 +54,8 @@ class PolishSmoother : public Smoother {
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     prepare(positions, record);
-    record.before = objective_.evaluate(positions);
+    if (!objective_.is_at(positions)) objective_.evaluate(positions);
+    record.before = objective_.totals();
     while (stage_ < kSharpness.size() && !sweep(positions)) measure();
     finish(positions, record);
   }
@@ -68,8 +69,11 @@ class PolishSmoother : public Smoother {
     record.limits = problem_.fixed_limits;
     record.tangent_class = problem_.classes.classes;
     record.fold_passes = record.energy_passes = 0;
-    x_.assign(positions.begin(), positions.end());
-    measure();
+    // A run asks for the positions that the step before led to: all is known of them.
+    if (!std::ranges::equal(positions, x_)) {
+      x_.assign(positions.begin(), positions.end());
+      measure();
+    }
     if (started_) return;
     started_ = true;
     goal_ = {worst_, options_.obtuse_weight};
@@ -80,12 +84,14 @@ class PolishSmoother : public Smoother {
   /// Extreme angles of all triangles that move, and the worst of them.
   void measure() {
     parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const Triangle& v = problem_.triangles[t];
-        if (movable_[t] != 0) ranges_[t] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
-      }
+      for (std::size_t t = begin; t < end; ++t) measure(static_cast<Index>(t));
     });
     find_worst();
+  }
+
+  void measure(Index t) {
+    const Triangle& v = problem_.triangles[t];
+    if (movable_[t] != 0) ranges_[t] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
   }
 
   void find_worst() {
@@ -212,15 +218,23 @@ class PolishSmoother : public Smoother {
   void finish(std::span<const Vec3> positions, StepRecord& record) {
     double largest = 0;
     record.moved = 0;
+    std::vector<Index> changed;
     for (Index v = 0; v < problem_.vertex_count(); ++v) {
       record.displacement[v] = x_[v] - positions[v];
       const double squared = record.displacement[v].squaredNorm();
       largest = std::max(largest, squared);
       record.moved += squared > 0 ? 1 : 0;
+      if (!(squared > 0)) continue;
       x_[v] = positions[v] + record.displacement[v];
+      for (const Corner c : problem_.topology.corners_of(v)) changed.push_back(c / 3);
     }
     record.largest_move = std::sqrt(largest);
-    record.after = objective_.evaluate(x_);
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const Index t : changed) measure(t);
+    find_worst();
+    record.after = objective_.update(x_, changed);
+    objective_.mark(x_);
   }
 
   const SmoothingProblem& problem_;
