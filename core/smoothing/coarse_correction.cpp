@@ -69,6 +69,7 @@ std::vector<Index> worst_first(const SmoothingProblem& problem, const Objective&
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<Index> order;
+  order.reserve(ranked.size());
   for (const auto& [rank, v] : ranked) order.push_back(v);
   return order;
 }
