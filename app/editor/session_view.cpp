@@ -45,7 +45,17 @@ std::string mean_area_reference(const model::Session& session) {
   return "equilateral:" + exact_text(std::sqrt(4 * mean / std::sqrt(3.0)));
 }
 
+/// Triangles of a moving surface are measured against its own reference.
+view::EnergyTerms energy_of_motion(const model::Session& session, const MotionChoices& motion) {
+  const double mu = motion.mu.value_or(MovingSurfaceOptions{}.weights.area);
+  view::EnergyTerms terms{1 - mu, mu, motion.reference};
+  if (motion.reference == "initial") terms.reference = session.document->path.string();
+  if (motion.reference == "equilateral") terms.reference = mean_area_reference(session);
+  return terms;
+}
+
 view::EnergyTerms energy_of(const model::Session& session) {
+  if (const model::Branch* branch = session.moving()) return energy_of_motion(session, *branch->motion);
   const model::SmoothingSettings& settings = session.smoothing;
   view::EnergyTerms terms{1 - settings.mu_a, settings.mu_a, ""};
   switch (settings.reference) {

@@ -111,6 +111,7 @@ void Executor::start_run(unsigned iterations) {
   }
   if (s_.activity != Activity::idle || iterations == 0) return;
   if (refuses_to_smooth() || run_over_recorded(iterations)) return;
+  forget_motion_energy();
   prepare_run(iterations);
   begin_branch();
   // A new series starts where this one will: the plots need its first point.
@@ -132,6 +133,14 @@ bool Executor::refuses_to_smooth() {
       "Smoothing keeps to the mesh as opened, which this surface has left: go to its start, or save this "
       "state and open it.");
   return true;
+}
+
+// At its start a moving surface is a mesh like any other, but for how it was measured.
+void Executor::forget_motion_energy() {
+  if (s_.moving() == nullptr) return;
+  auto plain = std::make_shared<MeshState>(*s_.current);
+  plain->energy.reset();
+  s_.current = s_.current->geometry == s_.original->geometry ? s_.original : plain;
 }
 
 void Executor::prepare_run(unsigned iterations) {

@@ -73,6 +73,7 @@ class Executor {
   void say(MessageKind kind, std::string text);
   void start_run(unsigned iterations);
   void prepare_run(unsigned iterations);
+  void forget_motion_energy();
   void start_motion(unsigned steps);
   bool move_over_recorded(unsigned steps);
   void begin_motion();

@@ -303,6 +303,23 @@ TEST_F(MotionTest, UndoResetAndSaveAreThoseOfEveryRun) {
   EXPECT_EQ(timeline().branches.size(), 1U);
 }
 
+TEST_F(MotionTest, TheStartOfAMotionIsSmoothedAsTheMeshThatItIs) {
+  open_sphere();
+  act(SetTask{Task::smooth});
+  act(Step{});
+  const double energy = session.history.front().energy;
+  const std::vector<Vec3> smoothed = shown();
+  open_sphere();
+  set({"field", "shear:0.5", "step", "0.5"});
+  act(Move{});
+  act(Seek{0, {}});
+  EXPECT_NE(session.current->energy->total, energy);
+  act(SetTask{Task::smooth});
+  act(Step{});
+  EXPECT_EQ(shown(), smoothed);
+  EXPECT_EQ(session.timeline.current()->rows.front().energy, energy);
+}
+
 TEST_F(MotionTest, TheErrorIsKnownOfAPlainSphereAndItsCommandIsAdvects) {
   open_sphere();
   set({"field", "paper:0.2", "step", "0.05"});
