@@ -149,6 +149,9 @@ void perform_inspection(const Ui& ui, Action action) {
     case Action::pin:
       if (s.selected_vertex) ui.command(model::TogglePin{*s.selected_vertex});
       break;
+    case Action::task:
+      ui.command(model::SetTask{s.task == model::Task::smooth ? model::Task::move : model::Task::smooth});
+      break;
     case Action::tab_quality:
       ui.state.tab = SideTab::quality;
       break;

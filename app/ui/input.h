@@ -34,6 +34,7 @@ enum class Key : std::uint8_t {
   f,
   h,
   i,
+  m,
   n,
   o,
   p,

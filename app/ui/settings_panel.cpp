@@ -186,7 +186,8 @@ void draw_task(const Ui& ui) {
   const int choice =
       segmented(ui, "task", kTasks, static_cast<int>(ui.session.task), ImGui::GetContentRegionAvail().x);
   ImGui::EndDisabled();
-  tooltip(ui, "Smooth the mesh, or carry it by a motion and redistribute its vertices on the way.");
+  tooltip(ui, "Smooth the mesh, or carry it by a motion and redistribute its vertices on the way.",
+          keys_of(Action::task));
   if (choice >= 0) ui.command(model::SetTask{static_cast<model::Task>(choice)});
 }
 

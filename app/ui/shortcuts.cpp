@@ -18,6 +18,7 @@ constexpr std::string_view kFile = "File and edit";
 
 constexpr std::array kShortcuts{
     Shortcut{Key::space, kPlain, Action::run_pause, "Space", "Run or pause", kSmoothing},
+    Shortcut{Key::m, kPlain, Action::task, "M", "Smooth or move", kSmoothing},
     Shortcut{Key::right, kPlain, Action::step, "Right", "One iteration, or time step, on", kSmoothing},
     Shortcut{Key::left, kPlain, Action::step_back, "Left", "One back", kSmoothing},
     Shortcut{Key::right, kShift, Action::next_stage, "Shift+Right", "To the next stage of the step",

@@ -48,6 +48,7 @@ enum class Action : std::uint8_t {
   tab_runs,
   pin,
   save_trace,
+  task,
 };
 
 struct Shortcut {

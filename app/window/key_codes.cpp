@@ -34,6 +34,7 @@ ui::Key key_of(int glfw_key) {
       std::pair{GLFW_KEY_F, Key::f},
       std::pair{GLFW_KEY_H, Key::h},
       std::pair{GLFW_KEY_I, Key::i},
+      std::pair{GLFW_KEY_M, Key::m},
       std::pair{GLFW_KEY_N, Key::n},
       std::pair{GLFW_KEY_O, Key::o},
       std::pair{GLFW_KEY_P, Key::p},

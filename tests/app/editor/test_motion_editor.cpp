@@ -31,7 +31,7 @@ class MotionEditorTest : public EditorTest {
 
 TEST_F(MotionEditorTest, AFewKeysAndClicksMoveTheOpenMeshAndGoThroughItsTime) {
   open(folder.make_square());
-  click("task/Move");
+  press(ui::Key::m);
   EXPECT_EQ(session().task, model::Task::move);
   EXPECT_EQ(session().view.coloring, model::Coloring::relative_area);
   act("motion field shear step 0.25");
