@@ -230,13 +230,13 @@ TEST_F(MotionTest, ATriangleIsMeasuredAgainstTheMotionsReference) {
   act(SelectTriangle{11});
   ASSERT_TRUE(session.inspection.moving_triangle);
   const MovingTriangle grown = *session.inspection.moving_triangle;
-  EXPECT_NEAR(grown.now.before.area / grown.area_start, (0.25 / 0.15) * (0.25 / 0.15), 0.15);
-  EXPECT_GT(grown.now.area, 2.01);
+  EXPECT_NEAR(grown.step.after.metrics.area / grown.area_start, (0.25 / 0.15) * (0.25 / 0.15), 0.15);
+  EXPECT_GT(grown.step.after.area, 2.01);
   act(Seek{0, {}});
   const MovingTriangle start = *session.inspection.moving_triangle;
-  EXPECT_NEAR(start.now.shape, 2, 1e-12);
-  EXPECT_NEAR(start.now.area, 2, 1e-12);
-  EXPECT_EQ(start.now.reference_area, start.area_start);
+  EXPECT_NEAR(start.step.after.shape, 2, 1e-12);
+  EXPECT_NEAR(start.step.after.area, 2, 1e-12);
+  EXPECT_EQ(start.step.reference_area, start.area_start);
   act(SetStage{Stage{}});
   EXPECT_FALSE(timeline().cursor.stage) << "its steps have none";
 }
