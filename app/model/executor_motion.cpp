@@ -80,16 +80,17 @@ void Executor::operator()(const Move& command) {
 }
 
 void Executor::start_motion(unsigned steps) {
-  if (!s_.current) {
-    say(MessageKind::info, "Open a mesh first, or take a sphere.");
+  const auto again = [steps](Session& s) { Executor(s).start_motion(steps); };
+  if (!s_.current && s_.activity == Activity::idle) {  // as isorelax advect without a mesh
+    (*this)(OpenSphere{});
+    s_.when_idle_.emplace_back(again);
     return;
   }
-  const auto again = [steps](Session& s) { Executor(s).start_motion(steps); };
   if (s_.seeking_ && s_.activity == Activity::idle) {
     s_.when_idle_.emplace_back(again);
     return;
   }
-  if (s_.activity != Activity::idle || move_over_recorded(steps)) return;
+  if (!s_.current || s_.activity != Activity::idle || move_over_recorded(steps)) return;
   const bool goes_on = s_.continues_branch();
   const Branch* shown = s_.moving();
   if (goes_on && has_arrived(*shown)) {

@@ -212,7 +212,9 @@ void draw_run_buttons(const Ui& ui) {
   const model::Session& s = ui.session;
   const bool running = s.is_running();
   const bool moves = s.task == model::Task::move;
-  const bool can_run = s.can_smooth() && !has_arrived(s);
+  // Without a mesh the paper's sphere moves.
+  const bool takes_sphere = moves && !s.document && s.activity == model::Activity::idle;
+  const bool can_run = takes_sphere || (s.can_smooth() && !has_arrived(s));
   const float height = ui.px(34);
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ui.px(8);

@@ -320,6 +320,14 @@ TEST_F(MotionTest, TheStartOfAMotionIsSmoothedAsTheMeshThatItIs) {
   EXPECT_EQ(session.timeline.current()->rows.front().energy, energy);
 }
 
+TEST_F(MotionTest, WithoutAMeshThePapersSphereMoves) {
+  set({"field", "paper:0.02", "preset", "none"});
+  act(Move{1});
+  ASSERT_TRUE(session.document);
+  EXPECT_EQ(session.document->mesh().vertex_count(), 5832U);
+  EXPECT_EQ(session.current->iteration, 1U);
+}
+
 TEST_F(MotionTest, TheErrorIsKnownOfAPlainSphereAndItsCommandIsAdvects) {
   open_sphere();
   set({"field", "paper:0.2", "step", "0.05"});
