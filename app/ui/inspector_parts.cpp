@@ -36,7 +36,7 @@ void change_row(const Ui& ui, std::string_view name, std::string_view label, dou
   value_row(ui, row);
 }
 
-std::string angles_text(const TriangleState& state) {
+std::string angles_text(const TriangleMoment& state) {
   std::string text;
   for (const double angle : state.angles_deg)
     text += (text.empty() ? "" : ", ") + number_text("%.2f", angle) + std::string(kDegree);
@@ -292,7 +292,7 @@ void draw_triangle_sections(const Ui& ui, const TriangleExplanation& e) {
         std::max(ui.px(110), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(what.c_str()).x));
     text_in(ui.fonts.text, color::kText, what);
   }
-  const TriangleState &was = e.before, &is = e.after;
+  const TriangleMoment &was = e.before, &is = e.after;
   heading(ui, "ENERGY");
   change_row(ui, "triangle/shape", "Shape K", was.shape, is.shape, "2 for the shape of the reference.");
   change_row(ui, "triangle/area-term", "Area S", was.area, is.area, "2 for the area of the reference.");

@@ -105,9 +105,9 @@ FlatTriangle lay_out(const ReferenceTriangle& r) {
   return {{{0, 0}, {h * (r.cot[0] + r.cot[1]), 0}, {h * r.cot[0], h}}};
 }
 
-TriangleState state_of(const SmoothingProblem& problem, const std::array<Vec3, 3>& x, Index t) {
+TriangleMoment state_of(const SmoothingProblem& problem, const std::array<Vec3, 3>& x, Index t) {
   const ReferenceTriangle reference = problem.reference[t];
-  TriangleState state;
+  TriangleMoment state;
   const Vec3 side = x[1] - x[0], other = x[2] - x[0];
   if (const double length = side.norm(); length > 0)
     state.outline = {{{0, 0}, {length, 0}, {other.dot(side) / length, other.cross(side).norm() / length}}};

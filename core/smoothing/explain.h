@@ -81,7 +81,7 @@ struct CornerMove {
 using FlatTriangle = std::array<std::array<double, 2>, 3>;
 
 /// What a triangle is to the energy, at one moment.
-struct TriangleState {
+struct TriangleMoment {
   FlatTriangle outline{};
   double shape = 0, area = 0, energy = 0;  ///< K, S and E
   TriangleMetrics metrics;
@@ -93,7 +93,7 @@ struct TriangleState {
 struct TriangleExplanation {
   Index triangle = 0;
   bool treated = true;
-  TriangleState before, after;  ///< K, S and E before are those of the record
+  TriangleMoment before, after;  ///< K, S and E before are those of the record
   double reference_area = 0;
   FlatTriangle reference{};
   std::array<CornerMove, 3> corners;

@@ -134,7 +134,7 @@ TEST(Explain, ATrianglesSingularValuesGiveItsEnergyBack) {
     for (Index t = 0; t < made.problem.triangle_count(); t += 3) {
       const auto e = explain_triangle(made.problem, c.mesh.positions, made.record, t);
       if (!e.treated) continue;
-      for (const TriangleState& state : {e.before, e.after}) {
+      for (const TriangleMoment& state : {e.before, e.after}) {
         const auto [large, small] = state.singular_values;
         ASSERT_GE(large, small - 1e-12);
         EXPECT_NEAR(large / small + small / large, state.shape, 1e-6 * state.shape);
