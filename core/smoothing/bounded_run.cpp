@@ -101,8 +101,12 @@ std::vector<std::string> note_of(const UntangleResult& untangled) {
 
 RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
                                 std::span<Vec3> positions, const RunOptions& options,
-                                const StepObserver& observer) {
-  if (problem.exponent <= 2) return run(*make_smoother(problem), problem, positions, options, observer);
+                                const StepObserver& observer,
+                                const std::function<void(unsigned done, double exponent)>& on_stage) {
+  if (problem.exponent <= 2) {
+    if (on_stage) on_stage(0, problem.exponent);
+    return run(*make_smoother(problem), problem, positions, options, observer);
+  }
   Objective objective(problem);
   const StepTotals before = objective.evaluate(positions);
   unsigned done = 0;
@@ -118,6 +122,7 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
     RunOptions stage_options = options;
     stage_options.iterations = options.iterations - done;
     if (!last) stage_options.tolerance = std::max(options.tolerance, kStageTolerance);
+    if (on_stage) on_stage(done, stage.exponent);
     result = run(*make_smoother(stage), stage, positions, stage_options, observe);
     done += result.iterations;
     seconds += result.seconds;
@@ -180,6 +185,7 @@ struct Attempts {
   const DeviationLimit& limit;
   const StepObserver& observer;
   const std::optional<PolishOptions>& polish;
+  const PartObserver& part_observer;
 };
 
 /// The smoothing part of run_bounded, with deviations measured against `surface`.
@@ -198,14 +204,20 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.deviation_limit = *largest;
     result.notes = problem.notes;
     result.limits = count_limits(problem.fixed_limits);
-    result.run =
-        run_with_continuation(problem, attempts.make_smoother, positions, attempts.run_options,
-                              [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
-                                result.limits = count_limits(record.limits);
-                                return !observer || observer(iteration, record, moved);
-                              });
-    if (attempts.polish && result.run.stopped != StopReason::cancelled)
+    const auto announce = [&](unsigned done, double exponent, bool polish) {
+      if (attempts.part_observer) attempts.part_observer({done, exponent, polish, options.holds}, positions);
+    };
+    result.run = run_with_continuation(
+        problem, attempts.make_smoother, positions, attempts.run_options,
+        [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+          result.limits = count_limits(record.limits);
+          return !observer || observer(iteration, record, moved);
+        },
+        [&](unsigned done, double exponent) { announce(done, exponent, false); });
+    if (attempts.polish && result.run.stopped != StopReason::cancelled) {
+      announce(result.run.iterations, problem.exponent, true);
       result.polish = run_polish(problem, positions, *attempts.polish, result.run.iterations, observer);
+    }
     const std::vector<Index> inverted =
         inverted_triangles(positions, triangles, problem.topology, options.threads);
     if (!inverted_before)
@@ -221,14 +233,12 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     add_vertices_turned_over(over, *inverted_before, inverted, triangles);
     if (over.empty() || result.run.stopped == StopReason::fixed) return result;
 
-    const std::size_t held_before = options.held_near_surface.size();
-    options.held_near_surface.insert(options.held_near_surface.end(), over.begin(), over.end());
-    std::sort(options.held_near_surface.begin(), options.held_near_surface.end());
-    options.held_near_surface.erase(
-        std::unique(options.held_near_surface.begin(), options.held_near_surface.end()),
-        options.held_near_surface.end());
-    if (options.held_near_surface.size() == held_before)
-      grow(options.held_near_surface, triangles, positions.size());
+    const std::size_t held_before = options.holds.still.size();
+    options.holds.still.insert(options.holds.still.end(), over.begin(), over.end());
+    std::sort(options.holds.still.begin(), options.holds.still.end());
+    options.holds.still.erase(std::unique(options.holds.still.begin(), options.holds.still.end()),
+                              options.holds.still.end());
+    if (options.holds.still.size() == held_before) grow(options.holds.still, triangles, positions.size());
     std::copy(original.begin(), original.end(), positions.begin());
   }
 }
@@ -304,11 +314,12 @@ ProblemOptions scaled(ProblemOptions options, double factor) {
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer, const std::optional<PolishOptions>& polish) {
+                          const StepObserver& observer, const std::optional<PolishOptions>& polish,
+                          const PartObserver& part_observer) {
   const double factor = scale_of(positions);
   if (factor == 1) {
     return untangle_and_run(positions, problem_options,
-                            {triangles, make_smoother, run_options, limit, observer, polish});
+                            {triangles, make_smoother, run_options, limit, observer, polish, part_observer});
   }
   std::vector<Vec3> near_one(positions.begin(), positions.end());
   for (Vec3& p : near_one) p *= factor;
@@ -321,8 +332,15 @@ BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> t
     for (Vec3& p : shown) p /= factor;
     return observer(iteration, record, shown);
   };
-  BoundedResult result = untangle_and_run(near_one, scaled(problem_options, factor),
-                                          {triangles, make_smoother, run_options, limit, observe, polish});
+  const PartObserver announce = [&](const RunPart& part, std::span<const Vec3> moved) {
+    if (!part_observer) return;
+    shown.assign(moved.begin(), moved.end());
+    for (Vec3& p : shown) p /= factor;
+    part_observer(part, shown);
+  };
+  BoundedResult result =
+      untangle_and_run(near_one, scaled(problem_options, factor),
+                       {triangles, make_smoother, run_options, limit, observe, polish, announce});
   for (Index v = 0; v < positions.size(); ++v)
     if (near_one[v] != before[v]) positions[v] = near_one[v] / factor;
   return result;

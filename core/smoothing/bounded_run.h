@@ -28,6 +28,19 @@ struct PolishOptions {
 /// Makes the smoother for a problem.
 using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
 
+/// What the steps of a run are made with from some iteration on: enough to make them again.
+struct RunPart {
+  /// Steps before the first of these. 0: the run begins here, maybe anew after an attempt that is given up.
+  unsigned done = 0;
+  double exponent = kDefaultExponent;
+  bool polish = false;  ///< made by `make_polish`, not by the SmootherFactory
+  SurfaceHolds holds;
+};
+
+/// Told of each part before its first step, with the positions there. Those of a part with done == 0 are what
+/// the problems of all parts until the next such part are made from.
+using PartObserver = std::function<void(const RunPart& part, std::span<const Vec3> positions)>;
+
 /// What a bounded run did.
 struct BoundedResult {
   UntangleResult untangled;
@@ -45,10 +58,12 @@ struct BoundedResult {
 
 /// Runs with the problem's exponent. One above 2 is reached in steps, 2, 4, 8, ..., each started where the
 /// one before ended: high powers alone are ruled by the worst triangle (method Sec. 6). All stages share
-/// options.iterations; the totals are those of the final exponent.
+/// options.iterations; the totals are those of the final exponent. `on_stage` is told the exponent of each
+/// stage and the steps before it.
 RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
                                 std::span<Vec3> positions, const RunOptions& options,
-                                const StepObserver& observer = {});
+                                const StepObserver& observer = {},
+                                const std::function<void(unsigned done, double exponent)>& on_stage = {});
 
 /// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. Where a
 /// triangle is farther than the limit allows, its vertices are held where they were and the run is done again
@@ -64,6 +79,7 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
                           const RunOptions& run_options, const DeviationLimit& limit,
-                          const StepObserver& observer = {}, const std::optional<PolishOptions>& polish = {});
+                          const StepObserver& observer = {}, const std::optional<PolishOptions>& polish = {},
+                          const PartObserver& part_observer = {});
 
 }  // namespace isorelax

@@ -189,14 +189,14 @@ class ProblemBuilder {
       }
       pin(v);
     }
-    for (const Index v : options_.held_near_surface) {
+    for (const Index v : options_.holds.still) {
       p_.mobility[v] = Mobility::none;
       p_.fixed_limits[v] |= kLimitSurface;
     }
-    if (options_.held_near_surface.empty()) return;
+    if (options_.holds.still.empty()) return;
     p_.notes.push_back(
-        counted(options_.held_near_surface.size(), "vertex is", "vertices are") +
-        " held, to stay near the surface and keep it unfolded: " + list_ids(options_.held_near_surface));
+        counted(options_.holds.still.size(), "vertex is", "vertices are") +
+        " held, to stay near the surface and keep it unfolded: " + list_ids(options_.holds.still));
   }
 
   void freeze_surface() {

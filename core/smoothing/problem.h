@@ -63,6 +63,15 @@ using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, Ini
 /// The exponent where none is asked for.
 inline constexpr double kDefaultExponent = 2;
 
+/// Vertices that a run found it must hold, to stay near the surface and keep it unfolded.
+struct SurfaceHolds {
+  std::vector<Index> still;  ///< where they are
+  std::vector<Index> near;   ///< not farther than `distance` from where they are
+  double distance = 0;       ///< length units
+
+  bool operator==(const SurfaceHolds&) const = default;
+};
+
 /// What is minimised and what may move.
 struct ProblemOptions {
   EnergyWeights weights;
@@ -77,8 +86,7 @@ struct ProblemOptions {
   UntangleRule untangle = UntangleRule::automatic;
   /// Vertices that the user holds.
   std::vector<Index> pinned;
-  /// Vertices held because moving them would leave the surface by more than is allowed.
-  std::vector<Index> held_near_surface;
+  SurfaceHolds holds;
   /// Threads for the set-up and the steps; 0: all the machine has. Results do not depend on it.
   unsigned threads = 0;
 };
