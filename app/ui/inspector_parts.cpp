@@ -138,6 +138,7 @@ std::string why_sentence(const VertexExplanation& e) {
   const std::string where = e.dimensions == 1 ? " along its line" : "";
   if (e.alpha == 0) return "It was stopped: " + why + ".";
   std::string text = "It moves by " + number_text("%.4g", e.alpha * asked) + where + ", ";
+  if (has(kLimitSurface)) text += "kept near where it was so that the surface stays, ";
   if (e.alpha == 1) return text + "all that it asked for.";
   return text + percent(e.alpha) + " of what it asked for: further, " + why + ".";
 }

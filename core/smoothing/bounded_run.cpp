@@ -14,6 +14,13 @@
 namespace isorelax {
 namespace {
 
+double diagonal_of(std::span<const Vec3> positions) {
+  Vec3 low = positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
+}
+
 /// The limit for a mesh when nobody stated one; see DeviationLimit.
 double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
                        const ProblemOptions& options) {
@@ -21,9 +28,6 @@ double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& 
   constexpr double kRadians = std::numbers::pi / 180;
   double sum = 0;
   std::size_t count = 0;
-  Vec3 low = positions.front();
-  Vec3 high = low;
-  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
     if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
     const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
@@ -32,7 +36,7 @@ double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& 
     sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
     ++count;
   }
-  const double diagonal = (high - low).norm();
+  const double diagonal = diagonal_of(positions);
   const double chords = count == 0 ? 0 : 0.5 * sum / (static_cast<double>(count) * diagonal);
   const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
   return std::max({kFine, chords, border});
@@ -51,13 +55,23 @@ std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span
   return vertices;
 }
 
-/// Adds the vertices of triangles that lie upside down now and did not before. Whether one does depends on
-/// its surroundings too, which no single step looks at.
-void add_vertices_turned_over(std::vector<Index>& vertices, std::span<const Index> before,
-                              std::span<const Index> now, std::span<const Triangle> triangles) {
-  std::vector<Index> turned;
+/// Vertices of triangles that lie upside down now and did not before. Whether one does depends on its
+/// surroundings too, which no single step looks at.
+std::vector<Index> vertices_turned_over(std::span<const Index> before, std::span<const Index> now,
+                                        std::span<const Triangle> triangles) {
+  std::vector<Index> turned, vertices;
   std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(turned));
   for (const Index t : turned) vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
+  return vertices;
+}
+
+/// Adds to a sorted list. Whether that made it longer.
+bool add(std::vector<Index>& sorted, std::span<const Index> more) {
+  const std::size_t before = sorted.size();
+  sorted.insert(sorted.end(), more.begin(), more.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  return sorted.size() > before;
 }
 
 /// Adds the neighbours of all held vertices: how the held region grows when holding the triangles alone was
@@ -75,6 +89,19 @@ void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::si
     if (grown[v] != 0) held.push_back(v);
   }
 }
+
+/// Holds more than was held in vain. Triangles whose vertices all stay within a distance of where they were
+/// are no farther from the surface than that; where more is asked, or triangles turned over, vertices do not
+/// move at all.
+void hold_more(SurfaceHolds& holds, std::span<const Index> over, std::span<const Index> turned,
+               std::span<const Triangle> triangles, std::size_t vertex_count) {
+  const bool nearer = add(holds.near, over);
+  if (add(holds.still, turned) || nearer || add(holds.still, over)) return;
+  grow(holds.still, triangles, vertex_count);
+}
+
+/// Share of the largest distance that vertices may go: the rest is for rounding.
+constexpr double kInside = 1 - 1e-9;
 
 /// A stage that only leads to the next one need not be exact.
 constexpr double kStageTolerance = 1e-4;
@@ -230,15 +257,11 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
       result.deviation = deviation.whole;
       if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
     }
-    add_vertices_turned_over(over, *inverted_before, inverted, triangles);
-    if (over.empty() || result.run.stopped == StopReason::fixed) return result;
+    const std::vector<Index> turned = vertices_turned_over(*inverted_before, inverted, triangles);
+    if ((over.empty() && turned.empty()) || result.run.stopped == StopReason::fixed) return result;
 
-    const std::size_t held_before = options.holds.still.size();
-    options.holds.still.insert(options.holds.still.end(), over.begin(), over.end());
-    std::sort(options.holds.still.begin(), options.holds.still.end());
-    options.holds.still.erase(std::unique(options.holds.still.begin(), options.holds.still.end()),
-                              options.holds.still.end());
-    if (options.holds.still.size() == held_before) grow(options.holds.still, triangles, positions.size());
+    options.holds.distance = kInside * *largest * diagonal_of(surface);
+    hold_more(options.holds, over, turned, triangles, positions.size());
     std::copy(original.begin(), original.end(), positions.begin());
   }
 }

@@ -48,6 +48,7 @@ class ProblemBuilder {
     for (Index v = 0; v < p_.vertex_count(); ++v) apply_class(v);
     pin_flaws();
     pin_choice();
+    hold_near_surface();
     measure_edges();
     limit_worst_angles();
     freeze_surface();
@@ -189,14 +190,26 @@ class ProblemBuilder {
       }
       pin(v);
     }
-    for (const Index v : options_.holds.still) {
+  }
+
+  void hold_near_surface() {
+    const SurfaceHolds& holds = options_.holds;
+    for (const Index v : holds.still) {
       p_.mobility[v] = Mobility::none;
       p_.fixed_limits[v] |= kLimitSurface;
     }
-    if (options_.holds.still.empty()) return;
-    p_.notes.push_back(
-        counted(options_.holds.still.size(), "vertex is", "vertices are") +
-        " held, to stay near the surface and keep it unfolded: " + list_ids(options_.holds.still));
+    for (const Index v : holds.near) {
+      if (p_.mobility[v] != Mobility::none) p_.balls[v] = {x_[v], holds.distance};
+    }
+    if (!holds.still.empty()) {
+      p_.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +
+                         " held, to stay near the surface and keep it unfolded: " + list_ids(holds.still));
+    }
+    if (!holds.near.empty()) {
+      p_.notes.push_back(counted(holds.near.size(), "vertex stays", "vertices stay") + " near where " +
+                         (holds.near.size() == 1 ? "it was" : "they were") +
+                         ", so that the surface does: " + list_ids(holds.near));
+    }
   }
 
   void freeze_surface() {
@@ -320,6 +333,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .border = {},
                            .plane_normal = {},
                            .surface = {},
+                           .balls = {},
                            .initial_normals = {},
                            .worst_angles = {},
                            .order = VisitOrder(positions, triangles),

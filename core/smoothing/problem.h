@@ -94,6 +94,12 @@ struct ProblemOptions {
 /// How far a vertex may move: the dimension of its tangent space.
 enum class Mobility : std::uint8_t { none, line, plane };
 
+/// A ball in space.
+struct Ball {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+};
+
 /// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.
 struct SmoothingProblem {
   std::vector<Triangle> triangles;
@@ -112,6 +118,8 @@ struct SmoothingProblem {
   std::optional<Vec3> plane_normal;
   /// What vertices are brought back to; none for tangent moves and where there is nothing to leave.
   std::shared_ptr<const FrozenSurface> surface;
+  /// The ball that a vertex must not leave, for those that have one.
+  std::unordered_map<Index, Ball> balls;
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
   /// No step makes a triangle worse than these: the worst angles of the treated triangles at the start, or

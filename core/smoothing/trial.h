@@ -8,7 +8,8 @@
 
 namespace isorelax {
 
-/// Where a vertex ends that is sent to `target`: there, or on the frozen surface near it if there is one.
+/// Where a vertex ends that is sent to `target`: there, or on the frozen surface near it if there is one; and
+/// in its ball if it has one.
 [[nodiscard]] Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target);
 
 /// Where a record's accepted moves lead: x + alpha * displacement for every vertex, kept up to date while
@@ -16,7 +17,10 @@ namespace isorelax {
 class Trial {
  public:
   /// Keeps a reference to the problem.
-  explicit Trial(const SmoothingProblem& problem) : problem_(problem), stamp_(problem.triangle_count(), 0) {}
+  explicit Trial(const SmoothingProblem& problem)
+      : problem_(problem),
+        bends_(problem.surface || !problem.balls.empty()),
+        stamp_(problem.triangle_count(), 0) {}
 
   /// Starts from the record's tangent moves, all alphas 1, and bends the displacements to the surface.
   void start(std::span<const Vec3> from, StepRecord& record);
@@ -35,6 +39,7 @@ class Trial {
   void place(StepRecord& record, Index vertex);
 
   const SmoothingProblem& problem_;
+  bool bends_;  // moves need not end where they were proposed to
   std::span<const Vec3> from_;
   std::vector<Vec3> tangent_;  // the moves as proposed
   std::vector<Vec3> to_;

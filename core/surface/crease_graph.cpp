@@ -25,24 +25,21 @@ class CreaseGraph {
       for (const Index v : edges_[e].vertices) at_[v].push_back(e);
   }
 
-  /// Takes out short lines with a free end until there are none left: without one another may end freely. All
-  /// that are short at a time go together, so that the numbering of vertices does not matter.
-  std::vector<FeatureEdge> without_short_ends() {
-    std::vector<Index> ends;
-    for (Index v = 0; v < at_.size(); ++v)
-      if (is_free_end(v)) ends.push_back(v);
-    while (!ends.empty()) {
-      std::vector<Line> lines;
-      for (const Index v : ends) {
+  /// Takes out short lines with a free end, and short loops, until there are none left: without one another
+  /// may end freely. All that are short at a time go together, so that the numbering of vertices does not
+  /// matter.
+  std::vector<FeatureEdge> without_short_lines() {
+    for (;;) {
+      std::vector<std::size_t> out;
+      for (Index v = 0; v < at_.size(); ++v) {
         if (!is_free_end(v)) continue;
-        Line line = follow(v);
-        if (is_short(line)) lines.push_back(std::move(line));
+        const Line line = follow(v);
+        if (is_short(line)) out.insert(out.end(), line.edges.begin(), line.edges.end());
       }
-      ends.clear();
-      for (const Line& line : lines) {
-        for (const std::size_t e : line.edges) kept_[e] = 0;
-        ends.push_back(line.end);
-      }
+      for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (kept_[e] != 0 && is_in_short_loop(e)) out.push_back(e);
+      if (out.empty()) break;
+      for (const std::size_t e : out) kept_[e] = 0;
     }
     std::vector<FeatureEdge> left;
     for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -64,16 +61,40 @@ class CreaseGraph {
 
   /// From a free end to where the line ends, branches or meets the border.
   [[nodiscard]] Line follow(Index v) const {
-    Line line{{}, v};
-    do {
-      const auto next = std::find_if(at_[line.end].begin(), at_[line.end].end(), [&](std::size_t e) {
-        return kept_[e] != 0 && (line.edges.empty() || e != line.edges.back());
-      });
-      line.edges.push_back(*next);
-      const auto& ends = edges_[*next].vertices;
-      line.end = ends[0] == line.end ? ends[1] : ends[0];
-    } while (!topology_.is_boundary(line.end) && count_at(line.end) == 2);
+    const std::size_t only = beyond(v, edges_.size());
+    Line line{{only}, other_end(only, v)};
+    while (!topology_.is_boundary(line.end) && count_at(line.end) == 2) {
+      line.edges.push_back(beyond(line.end, line.edges.back()));
+      line.end = other_end(line.edges.back(), line.end);
+    }
     return line;
+  }
+
+  /// The next edge of a line that comes to a vertex by this one. Precondition: there is another.
+  [[nodiscard]] std::size_t beyond(Index v, std::size_t edge) const {
+    return *std::find_if(at_[v].begin(), at_[v].end(),
+                         [&](std::size_t e) { return kept_[e] != 0 && e != edge; });
+  }
+
+  [[nodiscard]] Index other_end(std::size_t edge, Index v) const {
+    const auto& ends = edges_[edge].vertices;
+    return ends[0] == v ? ends[1] : ends[0];
+  }
+
+  /// A loop that few edges close, and that meets other creases in one vertex at most, goes around a single
+  /// pimple or dent of the mesh.
+  [[nodiscard]] bool is_in_short_loop(std::size_t edge) const {
+    for (const Index start : edges_[edge].vertices) {
+      Index at = other_end(edge, start);
+      std::size_t last = edge;
+      for (unsigned edges = 1; edges < options_.least_crease_edges; ++edges) {
+        if (at == start) return true;
+        if (topology_.is_boundary(at) || count_at(at) != 2) break;
+        last = beyond(at, last);
+        at = other_end(last, at);
+      }
+    }
+    return false;
   }
 
   [[nodiscard]] bool is_short(const Line& line) const {
@@ -160,7 +181,7 @@ std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const
   std::erase_if(creases, [&](const FeatureEdge& e) {
     return turns_deg[e.corner] <= options.sharp_edge_deg && in_web[e.vertices[0]] + in_web[e.vertices[1]] > 0;
   });
-  return CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_ends();
+  return CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_lines();
 }
 
 }  // namespace isorelax

@@ -17,8 +17,9 @@ namespace isorelax {
 /// roughness rather than a line that somebody would draw. Left out are edges that turn by less than
 /// `over_roughness` times the mean of the edges at their ends that are no creases; those up to
 /// `sharp_edge_deg` where creases go every which way; lines of fewer edges than `least_crease_edges` that end
-/// in the middle of a face, unless they turn by more than `sharp_edge_deg` on the average; and lines of fewer
-/// than twice as many that do so at both ends.
+/// in the middle of a face, unless they turn by more than `sharp_edge_deg` on the average; lines of fewer
+/// than twice as many that do so at both ends; and loops of fewer edges that others meet in one vertex at
+/// most.
 ///
 /// `turns_deg` are those of dihedral_turns_deg, `spread_deg` and `angle_defect_deg` those of VertexClasses.
 [[nodiscard]] std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles,

@@ -119,7 +119,9 @@ class Classifier {
 
   void classify_interior(Index v) {
     const std::vector<Index> ends = crease_neighbours(v);
-    double corner = std::abs(r_.angle_defect_deg[v]) - options_.corner_defect_deg;
+    // Without a crease a peak is a corner; a saddle, whose angles are too many, is none.
+    const double defect = r_.angle_defect_deg[v];
+    double corner = (ends.empty() ? defect : std::abs(defect)) - options_.corner_defect_deg;
     if (ends.size() == 2) {
       r_.turn_deg[v] =
           std::min(turn(v, {ends[0], ends[1]}), turn(v, {beyond(ends[0], v), beyond(ends[1], v)}));

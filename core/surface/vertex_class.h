@@ -26,7 +26,7 @@ struct FeatureOptions {
   double ridge_angle_deg = 30;
   /// An edge whose two faces turn by more than this makes both its ends ridge.
   double sharp_edge_deg = 65;
-  /// A vertex whose angles miss or exceed 2 pi by at least this is a corner.
+  /// A vertex whose angles miss 2 pi by at least this is a corner, on a crease also where they exceed it.
   double corner_defect_deg = 60;
   /// A ridge that turns by more than this in a vertex has a corner there.
   double turn_deg = 45;
@@ -34,7 +34,7 @@ struct FeatureOptions {
   /// a crease.
   double over_roughness = 2.5;
   /// A line of fewer crease edges that ends in the middle of a face is no feature, nor one of fewer than
-  /// twice as many that does so at both ends.
+  /// twice as many that does so at both ends, nor a loop of fewer.
   unsigned least_crease_edges = 4;
   /// A boundary that turns by more than this in a vertex has a corner there.
   double boundary_turn_deg = 45;
@@ -71,9 +71,10 @@ struct VertexClasses {
 /// Creases are those of find_creases. Boundary vertices are `boundary`, or `corner` where the border turns by
 /// more than boundary_turn_deg, where a straight stretch of it ends in a turn however small (so that straight
 /// outlines are kept), where a crease runs into it, or where several borders meet. Elsewhere: a corner where
-/// the angles miss 2 pi by corner_defect_deg, where one crease ends, where three or more meet, or where the
-/// line of two turns by more than turn_deg, both between the neighbours on it and between theirs: a line that
-/// only follows the zigzag of its edges has no corner. A ridge where two creases meet; else smooth.
+/// the angles miss 2 pi by corner_defect_deg (or exceed it, on a crease), where one crease ends, where three
+/// or more meet, or where the line of two turns by more than turn_deg, both between the neighbours on it and
+/// between theirs: a line that only follows the zigzag of its edges has no corner. A ridge where two creases
+/// meet; else smooth.
 VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const FeatureOptions& options,
                                 unsigned threads = 0);
