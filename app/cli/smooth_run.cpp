@@ -40,7 +40,7 @@ void SmoothRun::declare(CLI::App& app) {
       ->type_name("DEG")
       ->check(number_between(0, 60));
   app.add_option("--max-deviation", limit_.max,
-                 "Largest distance from the input surface, of its bounding-box diagonal (default 0.005, "
+                 "Largest distance from the input surface, of its bounding-box diagonal (default 0.003, "
                  "more where the mesh is coarse; inf: any)")
       ->type_name("D")
       ->check(number_between(0, std::numeric_limits<double>::infinity()));

@@ -121,6 +121,10 @@ void HalfedgeMesh::smooth_laplace(unsigned iterations) {
   smoother.smooth(iterations);
 }
 
+void HalfedgeMesh::hold(std::span<const std::uint8_t> held) {
+  for (Index v = 0; v < held.size(); ++v) impl_->mesh.status(handle_of(v)).set_locked(held[v] != 0);
+}
+
 std::vector<Vec3> HalfedgeMesh::positions() const {
   std::vector<Vec3> positions;
   for (std::size_t v = 0; v < impl_->mesh.n_vertices(); ++v) {

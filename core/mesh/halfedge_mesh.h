@@ -41,6 +41,8 @@ class HalfedgeMesh {
   /// OpenMesh's own Jacobi Laplace smoother, tangential and C0: the opponent in speed measurements. Fixes the
   /// boundary.
   void smooth_laplace(unsigned iterations);
+  /// Vertices that smooth_laplace leaves where they are, besides those on borders: held[v] != 0.
+  void hold(std::span<const std::uint8_t> held);
 
   [[nodiscard]] std::vector<Vec3> positions() const;
   /// The triangles in order of their ids, removed and rejected ones left out.

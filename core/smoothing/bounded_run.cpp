@@ -2,109 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numbers>
 
 #include "quality/inverted.h"
 #include "quality/report.h"
 #include "smoothing/objective.h"
 #include "smoothing/polish.h"
-#include "surface/feature_edges.h"
+#include "smoothing/surface_watch.h"
 
 namespace isorelax {
 namespace {
 
-double diagonal_of(std::span<const Vec3> positions) {
-  Vec3 low = positions.front();
-  Vec3 high = low;
-  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).norm();
-}
-
-/// The limit for a mesh when nobody stated one; see DeviationLimit.
-double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                       const ProblemOptions& options) {
-  constexpr double kFine = 0.005;
-  constexpr double kRadians = std::numbers::pi / 180;
-  double sum = 0;
-  std::size_t count = 0;
-  for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
-    if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
-    const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
-    if (turn >= options.features.ridge_angle_deg) continue;
-    const Triangle& t = problem.triangles[c / 3];
-    sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
-    ++count;
-  }
-  const double diagonal = diagonal_of(positions);
-  const double chords = count == 0 ? 0 : 0.5 * sum / (static_cast<double>(count) * diagonal);
-  const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
-  return std::max({kFine, chords, border});
-}
-
-/// Vertices of the triangles over the limit, sorted.
-std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span<const Triangle> triangles,
-                                 double limit) {
-  std::vector<Index> vertices;
-  for (Index t = 0; t < triangles.size(); ++t) {
-    if (deviation.largest[t] > limit)
-      vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-/// Vertices of triangles that lie upside down now and did not before. Whether one does depends on its
-/// surroundings too, which no single step looks at.
-std::vector<Index> vertices_turned_over(std::span<const Index> before, std::span<const Index> now,
-                                        std::span<const Triangle> triangles) {
-  std::vector<Index> turned, vertices;
-  std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(turned));
-  for (const Index t : turned) vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
-  return vertices;
-}
-
-/// Adds to a sorted list. Whether that made it longer.
-bool add(std::vector<Index>& sorted, std::span<const Index> more) {
-  const std::size_t before = sorted.size();
-  sorted.insert(sorted.end(), more.begin(), more.end());
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  return sorted.size() > before;
-}
-
-/// Adds the neighbours of all held vertices: how the held region grows when holding the triangles alone was
-/// in vain.
-void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::size_t vertex_count) {
-  std::vector<std::uint8_t> inside(vertex_count, 0);
-  for (const Index v : held) inside[v] = 1;
-  held.clear();
-  std::vector<std::uint8_t> grown = inside;
-  for (const Triangle& t : triangles) {
-    if (inside[t[0]] + inside[t[1]] + inside[t[2]] == 0) continue;
-    for (const Index v : t) grown[v] = 1;
-  }
-  for (Index v = 0; v < vertex_count; ++v) {
-    if (grown[v] != 0) held.push_back(v);
-  }
-}
-
-/// Holds more than was held in vain. Triangles whose vertices all stay within a distance of where they were
-/// are no farther from the surface than that; where more is asked, or triangles turned over, vertices do not
-/// move at all.
-void hold_more(SurfaceHolds& holds, std::span<const Index> over, std::span<const Index> turned,
-               std::span<const Triangle> triangles, std::size_t vertex_count) {
-  const bool nearer = add(holds.near, over);
-  if (add(holds.still, turned) || nearer || add(holds.still, over)) return;
-  grow(holds.still, triangles, vertex_count);
-}
-
-/// Share of the largest distance that vertices may go: the rest is for rounding.
-constexpr double kInside = 1 - 1e-9;
-
 /// A stage that only leads to the next one need not be exact.
 constexpr double kStageTolerance = 1e-4;
+/// Nor need a run that only finds out what is to be held.
+constexpr double kTryTolerance = 1e-3;
 
 /// What the user is told about triangles that lay upside down; nothing where there were none.
 std::vector<std::string> note_of(const UntangleResult& untangled) {
@@ -183,27 +94,6 @@ RunResult run_polish(const SmoothingProblem& problem, std::span<Vec3> positions,
              });
 }
 
-/// Whether both sets of positions surely cover the same part of one plane, so that there is nothing to
-/// measure: all in it but for rounding, the border where it was, no triangle upside down before or after.
-bool covers_the_same(const SmoothingProblem& problem, std::span<const Vec3> before,
-                     std::span<const Vec3> after, std::span<const Index> inverted_before,
-                     std::span<const Index> inverted_after) {
-  constexpr double kRounding = 1e-14;
-  if (!problem.plane_normal || !inverted_before.empty() || !inverted_after.empty()) return false;
-  double low = INFINITY, high = -INFINITY, extent = 0;
-  for (const Triangle& t : problem.triangles) {
-    for (const Index v : t) {
-      if (problem.topology.is_boundary(v) && before[v] != after[v]) return false;
-      extent = std::max(extent, before[v].cwiseAbs().maxCoeff());
-      for (const Vec3& x : {before[v], after[v]}) {
-        low = std::min(low, problem.plane_normal->dot(x));
-        high = std::max(high, problem.plane_normal->dot(x));
-      }
-    }
-  }
-  return high - low <= kRounding * extent;
-}
-
 /// What stays the same from one attempt to the next.
 struct Attempts {
   std::span<const Triangle> triangles;
@@ -215,53 +105,53 @@ struct Attempts {
   const PartObserver& part_observer;
 };
 
+/// One attempt of run_from, whose deviation is not measured yet.
+BoundedResult attempt(const SmoothingProblem& problem, const SurfaceHolds& holds, std::span<Vec3> positions,
+                      const Attempts& attempts, const RunOptions& run_options,
+                      const std::optional<PolishOptions>& polish) {
+  BoundedResult result;
+  result.notes = problem.notes;
+  result.limits = count_limits(problem.fixed_limits);
+  const auto announce = [&](unsigned done, double exponent, bool polishing) {
+    if (attempts.part_observer) attempts.part_observer({done, exponent, polishing, holds}, positions);
+  };
+  result.run = run_with_continuation(
+      problem, attempts.make_smoother, positions, run_options,
+      [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
+        result.limits = count_limits(record.limits);
+        return !attempts.observer || attempts.observer(iteration, record, moved);
+      },
+      [&](unsigned done, double exponent) { announce(done, exponent, false); });
+  if (polish && result.run.stopped != StopReason::cancelled) {
+    announce(result.run.iterations, problem.exponent, true);
+    result.polish = run_polish(problem, positions, *polish, result.run.iterations, attempts.observer);
+  }
+  return result;
+}
+
 /// The smoothing part of run_bounded, with deviations measured against `surface`.
 BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
-                       const ProblemOptions& problem_options, const Attempts& attempts) {
-  const std::span<const Triangle> triangles = attempts.triangles;
-  const StepObserver& observer = attempts.observer;
+                       const ProblemOptions& options, const Attempts& attempts) {
   const std::vector<Vec3> original(positions.begin(), positions.end());
-  ProblemOptions options = problem_options;
-  std::optional<std::vector<Index>> inverted_before;
-  std::optional<double> largest = attempts.limit.max;
-  for (;;) {
-    const SmoothingProblem problem = make_problem(original, triangles, options);
-    if (!largest) largest = automatic_limit(original, problem, options);
-    BoundedResult result;
-    result.deviation_limit = *largest;
-    result.notes = problem.notes;
-    result.limits = count_limits(problem.fixed_limits);
-    const auto announce = [&](unsigned done, double exponent, bool polish) {
-      if (attempts.part_observer) attempts.part_observer({done, exponent, polish, options.holds}, positions);
-    };
-    result.run = run_with_continuation(
-        problem, attempts.make_smoother, positions, attempts.run_options,
-        [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
-          result.limits = count_limits(record.limits);
-          return !observer || observer(iteration, record, moved);
-        },
-        [&](unsigned done, double exponent) { announce(done, exponent, false); });
-    if (attempts.polish && result.run.stopped != StopReason::cancelled) {
-      announce(result.run.iterations, problem.exponent, true);
-      result.polish = run_polish(problem, positions, *attempts.polish, result.run.iterations, observer);
-    }
-    const std::vector<Index> inverted =
-        inverted_triangles(positions, triangles, problem.topology, options.threads);
-    if (!inverted_before)
-      inverted_before = inverted_triangles(original, triangles, problem.topology, options.threads);
-    std::vector<Index> over;
-    if (!std::ranges::equal(surface, original) ||
-        !covers_the_same(problem, original, positions, *inverted_before, inverted)) {
-      const DeviationByTriangle deviation =
-          measure_deviation_by_triangle(surface, positions, triangles, problem.topology, options.threads);
-      result.deviation = deviation.whole;
-      if (deviation.whole.max > *largest) over = vertices_over(deviation, triangles, *largest);
-    }
-    const std::vector<Index> turned = vertices_turned_over(*inverted_before, inverted, triangles);
-    if ((over.empty() && turned.empty()) || result.run.stopped == StopReason::fixed) return result;
-
-    options.holds.distance = kInside * *largest * diagonal_of(surface);
-    hold_more(options.holds, over, turned, triangles, positions.size());
+  const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
+  const double limit = attempts.limit.max ? *attempts.limit.max : automatic_limit(original, unheld, options);
+  const SurfaceWatch watch(surface, original, unheld, limit);
+  SurfaceHolds holds = options.holds;
+  // The first attempt mostly is the last. After one that was not, quick tries find what has to be held.
+  RunOptions quick = attempts.run_options;
+  quick.tolerance = std::max(quick.tolerance, kTryTolerance);
+  for (bool trying = false;;) {
+    SmoothingProblem problem = unheld;
+    hold(problem, holds, original);
+    BoundedResult result = attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options,
+                                   trying ? std::nullopt : attempts.polish);
+    const SurfaceWatch::Finding found = watch.look(positions);
+    result.deviation_limit = limit;
+    result.deviation = found.deviation;
+    const bool sound = found.far.empty() && found.turned.empty();
+    if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
+    if (!sound) watch.hold_more(holds, found);
+    trying = !sound;
     std::copy(original.begin(), original.end(), positions.begin());
   }
 }

@@ -48,7 +48,6 @@ class ProblemBuilder {
     for (Index v = 0; v < p_.vertex_count(); ++v) apply_class(v);
     pin_flaws();
     pin_choice();
-    hold_near_surface();
     measure_edges();
     limit_worst_angles();
     freeze_surface();
@@ -192,26 +191,6 @@ class ProblemBuilder {
     }
   }
 
-  void hold_near_surface() {
-    const SurfaceHolds& holds = options_.holds;
-    for (const Index v : holds.still) {
-      p_.mobility[v] = Mobility::none;
-      p_.fixed_limits[v] |= kLimitSurface;
-    }
-    for (const Index v : holds.near) {
-      if (p_.mobility[v] != Mobility::none) p_.balls[v] = {x_[v], holds.distance};
-    }
-    if (!holds.still.empty()) {
-      p_.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +
-                         " held, to stay near the surface and keep it unfolded: " + list_ids(holds.still));
-    }
-    if (!holds.near.empty()) {
-      p_.notes.push_back(counted(holds.near.size(), "vertex stays", "vertices stay") + " near where " +
-                         (holds.near.size() == 1 ? "it was" : "they were") +
-                         ", so that the surface does: " + list_ids(holds.near));
-    }
-  }
-
   void freeze_surface() {
     if (!p_.plane_normal) {
       p_.initial_normals.resize(p_.triangle_count());
@@ -351,7 +330,27 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                             " of the reference is degenerate: an equilateral one stands in");
   }
   ProblemBuilder(positions, options, problem).build();
+  hold(problem, options.holds, positions);
   return problem;
+}
+
+void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const Vec3> positions) {
+  for (const Index v : holds.still) {
+    problem.mobility[v] = Mobility::none;
+    problem.fixed_limits[v] |= kLimitSurface;
+  }
+  for (const Index v : holds.near) {
+    if (problem.mobility[v] != Mobility::none) problem.balls[v] = {positions[v], holds.distance};
+  }
+  if (!holds.still.empty()) {
+    problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +
+                            " held, to stay near the surface and keep it unfolded: " + list_ids(holds.still));
+  }
+  if (!holds.near.empty()) {
+    problem.notes.push_back(counted(holds.near.size(), "vertex stays", "vertices stay") + " near where " +
+                            (holds.near.size() == 1 ? "it was" : "they were") +
+                            ", so that the surface does: " + list_ids(holds.near));
+  }
 }
 
 }  // namespace isorelax

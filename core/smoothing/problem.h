@@ -143,6 +143,9 @@ struct SmoothingProblem {
 SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& options);
 
+/// Holds vertices of a problem that was made from these positions; says so in its notes.
+void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const Vec3> positions);
+
 /// Turns the triangles of a mesh that lie upside down by `untangle`, as far as the options let vertices move:
 /// the border stays whatever its rule, so do pinned vertices, flawed places, and the ridges and corners of
 /// sound surroundings. Does nothing where options.untangle is off. Throws UsageError as make_problem.

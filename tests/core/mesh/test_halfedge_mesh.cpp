@@ -94,5 +94,17 @@ TEST(HalfedgeMesh, LaplaceSmootherMovesInnerVerticesOnly) {
   EXPECT_LT((after[12] - Vec3(2, 2, 0)).norm(), 0.05);
 }
 
+TEST(HalfedgeMesh, LaplaceSmootherLeavesHeldVertices) {
+  TriangleMesh mesh = grid(4);
+  mesh.positions[12] += Vec3(0.3, 0.2, 0);
+  HalfedgeMesh view(mesh);
+  std::vector<std::uint8_t> held(mesh.vertex_count(), 0);
+  held[12] = 1;
+  view.hold(held);
+  view.smooth_laplace(20);
+  EXPECT_EQ(view.positions()[12], mesh.positions[12]);
+  EXPECT_NE(view.positions()[11], mesh.positions[11]);
+}
+
 }  // namespace
 }  // namespace isorelax

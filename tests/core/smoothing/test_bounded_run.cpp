@@ -65,6 +65,46 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   EXPECT_EQ(mesh.positions, shaken_torus().positions);
 }
 
+TEST(BoundedRun, VerticesThatAreKeptNearMoveAndStayNear) {
+  const TriangleMesh start = shaken_torus();
+  ProblemOptions options;
+  options.holds.distance = 0.02;
+  for (Index v = 0; v < start.vertex_count(); v += 2) options.holds.near.push_back(v);
+  for (const SurfaceRule surface : {SurfaceRule::tangent, SurfaceRule::project}) {
+    options.surface = surface;
+    const SmoothingProblem problem = make_problem(start.positions, start.triangles, options);
+    std::vector<Vec3> x = start.positions;
+    std::size_t limited = 0;
+    run(*make_smoother(problem, Solver::automatic), problem, x, {.iterations = 30},
+        [&](unsigned, const StepRecord& record, std::span<const Vec3>) {
+          limited += count_limits(record.limits)[6];
+          return true;
+        });
+    double nearest = 0, farthest = 0;
+    for (Index v = 0; v < x.size(); ++v) {
+      double& largest = v % 2 == 0 ? nearest : farthest;
+      largest = std::max(largest, (x[v] - start.positions[v]).norm());
+    }
+    EXPECT_LE(nearest, options.holds.distance * (1 + 1e-12));
+    EXPECT_GT(nearest, 0.9 * options.holds.distance);
+    EXPECT_GT(farthest, 2 * options.holds.distance);
+    EXPECT_GT(limited, 0U);
+  }
+}
+
+TEST(BoundedRun, KeepsVerticesNearBeforeItHoldsThemStill) {
+  TriangleMesh mesh = shaken_torus();
+  const double unlimited = smooth(mesh, std::numeric_limits<double>::infinity()).deviation.max;
+  mesh = shaken_torus();
+  SurfaceHolds last;
+  run_bounded(
+      mesh.positions, mesh.triangles, {.surface = SurfaceRule::tangent},
+      [](const SmoothingProblem& problem) { return make_jacobi(problem); }, {.iterations = 40},
+      {0.5 * unlimited}, {}, {}, [&](const RunPart& part, std::span<const Vec3>) { last = part.holds; });
+  EXPECT_GT(last.near.size(), 0U);
+  EXPECT_TRUE(last.still.empty());
+}
+
 TEST(BoundedRun, ProjectionKeepsVerticesOnTheSurfaceItCameFrom) {
   TriangleMesh tangent = generate(ShapeKind::random_sphere, {.seed = 8, .vertices = 2000});
   TriangleMesh projected = tangent;

@@ -1,0 +1,144 @@
+#include "smoothing/surface_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "quality/inverted.h"
+#include "surface/feature_edges.h"
+
+namespace isorelax {
+namespace {
+
+/// Share of the largest distance that vertices may go: the rest is for rounding.
+constexpr double kInside = 1 - 1e-9;
+/// Where one triangle is over the limit, those over this share of it are held as well.
+constexpr double kNearLimit = 0.9;
+
+double diagonal_of(std::span<const Vec3> positions) {
+  Vec3 low = positions.front();
+  Vec3 high = low;
+  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
+}
+
+/// Vertices of the triangles over the limit, sorted.
+std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span<const Triangle> triangles,
+                                 double limit) {
+  std::vector<Index> vertices;
+  for (Index t = 0; t < triangles.size(); ++t) {
+    if (deviation.largest[t] > limit)
+      vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Vertices of triangles that lie upside down now and did not before. Whether one does depends on its
+/// surroundings too, which no single step looks at.
+std::vector<Index> vertices_turned_over(std::span<const Index> before, std::span<const Index> now,
+                                        std::span<const Triangle> triangles) {
+  std::vector<Index> turned, vertices;
+  std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(turned));
+  for (const Index t : turned) vertices.insert(vertices.end(), triangles[t].begin(), triangles[t].end());
+  return vertices;
+}
+
+/// Adds to a sorted list. Whether that made it longer.
+bool add(std::vector<Index>& sorted, std::span<const Index> more) {
+  const std::size_t before = sorted.size();
+  sorted.insert(sorted.end(), more.begin(), more.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  return sorted.size() > before;
+}
+
+/// Adds the neighbours of all held vertices: how the held region grows when holding the triangles alone was
+/// in vain.
+void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::size_t vertex_count) {
+  std::vector<std::uint8_t> inside(vertex_count, 0);
+  for (const Index v : held) inside[v] = 1;
+  held.clear();
+  std::vector<std::uint8_t> grown = inside;
+  for (const Triangle& t : triangles) {
+    if (inside[t[0]] + inside[t[1]] + inside[t[2]] == 0) continue;
+    for (const Index v : t) grown[v] = 1;
+  }
+  for (Index v = 0; v < vertex_count; ++v) {
+    if (grown[v] != 0) held.push_back(v);
+  }
+}
+
+}  // namespace
+
+double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                       const ProblemOptions& options) {
+  constexpr double kFine = 0.003;
+  constexpr double kRadians = std::numbers::pi / 180;
+  double sum = 0;
+  std::size_t count = 0;
+  for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
+    if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
+    const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
+    if (turn >= options.features.ridge_angle_deg) continue;
+    const Triangle& t = problem.triangles[c / 3];
+    sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
+    ++count;
+  }
+  const double diagonal = diagonal_of(positions);
+  const double chords = count == 0 ? 0 : 0.5 * sum / (static_cast<double>(count) * diagonal);
+  const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
+  return std::max({kFine, chords, border});
+}
+
+SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start,
+                           const SmoothingProblem& problem, double limit)
+    : surface_(surface),
+      start_(start),
+      problem_(problem),
+      limit_(limit),
+      inverted_(inverted_triangles(start, problem.triangles, problem.topology, problem.threads)) {}
+
+SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions) const {
+  Finding found;
+  const std::vector<Index> inverted =
+      inverted_triangles(positions, problem_.triangles, problem_.topology, problem_.threads);
+  found.turned = vertices_turned_over(inverted_, inverted, problem_.triangles);
+  if (std::ranges::equal(surface_, start_) && covers_the_same(positions, inverted)) return found;
+  const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
+                                                                      problem_.topology, problem_.threads);
+  found.deviation = deviation.whole;
+  if (deviation.whole.max > limit_)
+    found.far = vertices_over(deviation, problem_.triangles, kNearLimit * limit_);
+  return found;
+}
+
+void SurfaceWatch::hold_more(SurfaceHolds& holds, const Finding& found) const {
+  holds.distance = kInside * limit_ * diagonal_of(surface_);
+  const bool nearer = add(holds.near, found.far);
+  if (add(holds.still, found.turned) || nearer || add(holds.still, found.far)) return;
+  grow(holds.still, problem_.triangles, start_.size());
+}
+
+/// Whether the positions surely cover the same part of one plane, so that there is nothing
+/// to measure: all in it but for rounding, the border where it was, no triangle upside down before or after.
+bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const {
+  constexpr double kRounding = 1e-14;
+  if (!problem_.plane_normal || !inverted_.empty() || !inverted.empty()) return false;
+  double low = INFINITY, high = -INFINITY, extent = 0;
+  for (const Triangle& t : problem_.triangles) {
+    for (const Index v : t) {
+      if (problem_.topology.is_boundary(v) && start_[v] != after[v]) return false;
+      extent = std::max(extent, start_[v].cwiseAbs().maxCoeff());
+      for (const Vec3& x : {start_[v], after[v]}) {
+        low = std::min(low, problem_.plane_normal->dot(x));
+        high = std::max(high, problem_.plane_normal->dot(x));
+      }
+    }
+  }
+  return high - low <= kRounding * extent;
+}
+
+}  // namespace isorelax

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "smoothing/problem.h"
+#include "surface/deviation.h"
+
+namespace isorelax {
+
+/// The largest deviation for a mesh when nobody stated one; see DeviationLimit.
+[[nodiscard]] double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                                     const ProblemOptions& options);
+
+/// Finds what a run did to the surface that it must not do, and says what to hold so that it does not.
+class SurfaceWatch {
+ public:
+  /// What is wrong with a result.
+  struct Finding {
+    Deviation deviation;
+    std::vector<Index> far;     ///< vertices of triangles over the limit, or near it where one is over
+    std::vector<Index> turned;  ///< of triangles that lie upside down and did not at the start
+  };
+
+  /// Deviations are measured from `surface`, runs begin at `start`; `limit` is over the diagonal of
+  /// `surface`. Keeps references to all three.
+  SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start, const SmoothingProblem& problem,
+               double limit);
+
+  [[nodiscard]] Finding look(std::span<const Vec3> positions) const;
+
+  /// Holds more than was held in vain. Triangles whose vertices all stay within a distance of where they were
+  /// are no farther from the surface than that; where that was in vain too, or triangles turned over,
+  /// vertices do not move at all; at last their neighbours neither.
+  void hold_more(SurfaceHolds& holds, const Finding& found) const;
+
+ private:
+  [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
+
+  std::span<const Vec3> surface_, start_;
+  const SmoothingProblem& problem_;
+  double limit_;
+  std::vector<Index> inverted_;  // at the start
+};
+
+}  // namespace isorelax
