@@ -31,7 +31,7 @@ void refuse(const CLI::App& app, const std::string& method, std::initializer_lis
   }
 }
 
-Method near_isometry(const CLI::App& app, const MethodSpec& spec) {
+Method near_isometry(const CLI::App& app, const MethodSpec& spec, RecordDetail detail) {
   refuse(app, spec.method, {"--weighting", "--guard"});
   const auto solver = choose<Solver>("--solver", spec.solver,
                                      {{"auto", Solver::automatic},
@@ -39,9 +39,10 @@ Method near_isometry(const CLI::App& app, const MethodSpec& spec) {
                                       {"newton", Solver::newton},
                                       {"lbfgs", Solver::lbfgs}});
   JacobiOptions jacobi;
+  jacobi.detail = detail;
   if (spec.relaxation) jacobi.relaxation = *spec.relaxation;
   return {.make_smoother = [=](const SmoothingProblem& problem) {
-    return solver == Solver::jacobi ? make_jacobi(problem, jacobi) : make_smoother(problem, solver);
+    return solver == Solver::jacobi ? make_jacobi(problem, jacobi) : make_smoother(problem, solver, detail);
   }};
 }
 
@@ -49,8 +50,9 @@ BaselineGuard parse_guard(const std::string& typed) {
   return choose<BaselineGuard>("--guard", typed, {{"on", BaselineGuard::on}, {"off", BaselineGuard::off}});
 }
 
-Method laplacian(const MethodSpec& spec) {
+Method laplacian(const MethodSpec& spec, RecordDetail detail) {
   LaplacianOptions options;
+  options.detail = detail;
   options.guard = parse_guard(spec.guard);
   options.weighting = choose<LaplacianWeighting>(
       "--weighting", spec.weighting,
@@ -61,8 +63,9 @@ Method laplacian(const MethodSpec& spec) {
           .minimises = false};
 }
 
-Method angle_based(const MethodSpec& spec) {
+Method angle_based(const MethodSpec& spec, RecordDetail detail) {
   AngleBasedOptions options;
+  options.detail = detail;
   options.guard = parse_guard(spec.guard);
   options.weighting = choose<AngleWeighting>(
       "--weighting", spec.weighting, {{"angle", AngleWeighting::angle}, {"plain", AngleWeighting::plain}});
@@ -99,13 +102,13 @@ void declare_method(CLI::App& app, MethodSpec& spec) {
       ->check(number_between(0.01, 2));
 }
 
-Method parse_method(const CLI::App& app, const MethodSpec& spec) {
-  if (spec.method == "near-isometry") return near_isometry(app, spec);
+Method parse_method(const CLI::App& app, const MethodSpec& spec, RecordDetail detail) {
+  if (spec.method == "near-isometry") return near_isometry(app, spec, detail);
   if (spec.method != "laplacian" && spec.method != "angle-based") {
     throw UsageError("--method " + spec.method + ": expected near-isometry, laplacian or angle-based");
   }
   refuse(app, spec.method, {"--solver", "--mu", "--weights", "--exponent", "--reference"});
-  return spec.method == "laplacian" ? laplacian(spec) : angle_based(spec);
+  return spec.method == "laplacian" ? laplacian(spec, detail) : angle_based(spec, detail);
 }
 
 }  // namespace isorelax::cli

@@ -30,7 +30,8 @@ struct Method {
 void declare_method(CLI::App& app, MethodSpec& spec);
 
 /// Throws UsageError for an unknown word, and for an option that the method does not have, those of
-/// declare_problem among them: `app` tells what was typed.
-[[nodiscard]] Method parse_method(const CLI::App& app, const MethodSpec& spec);
+/// declare_problem among them: `app` tells what was typed. `detail` is that of the smoothers' records.
+[[nodiscard]] Method parse_method(const CLI::App& app, const MethodSpec& spec,
+                                  RecordDetail detail = RecordDetail::vertices);
 
 }  // namespace isorelax::cli

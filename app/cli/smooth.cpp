@@ -187,13 +187,14 @@ class SmoothCommand : public Command {
     about.arguments = run_.words();
     about.resources = run_.resources();
     TraceRecorder recorder(std::move(about), mesh);
-    SmoothOutcome outcome =
-        run_.smooth(console, input_, mesh,
-                    [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
-                      recorder.add(iteration, record, positions);
-                      frames_.take(iteration, positions);
-                      return watch_.look(console, recorder.trace(), record, positions);
-                    });
+    SmoothOutcome outcome = run_.smooth(
+        console, input_, mesh,
+        [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
+          recorder.add(iteration, record, positions);
+          frames_.take(iteration, positions);
+          return watch_.look(console, recorder.trace(), record, positions);
+        },
+        [&](const RunPart& part, std::span<const Vec3> positions) { recorder.begin_part(part, positions); });
     watch_.finish(console, recorder.trace());
     if (!trace_.empty()) {
       recorder.trace().stopped = name_of(outcome.run.stopped);

@@ -74,7 +74,7 @@ std::vector<TraceResource> SmoothRun::resources() const {
 }
 
 SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, TriangleMesh& mesh,
-                                const StepObserver& observer) const {
+                                const StepObserver& observer, const PartObserver& part_observer) const {
   const Method method = parse_method(*app_, method_);
   ProblemOptions options = parse_problem(console, problem_, mesh);
   if (!method.minimises) options.exponent = 1;  // of the energy that is reported
@@ -92,9 +92,13 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
       return !observer || observer(iteration, record, positions);
     };
     if (method.guarded) {
-      static_cast<BoundedResult&>(outcome) = run_bounded(
-          mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show, parse_polish());
+      static_cast<BoundedResult&>(outcome) =
+          run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show,
+                      parse_polish(), part_observer);
     } else {
+      RunPart only;
+      only.exponent = options.exponent.value_or(kDefaultExponent);
+      if (part_observer) part_observer(only, mesh.positions);
       static_cast<UnguardedResult&>(outcome) =
           run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);
     }
@@ -103,6 +107,11 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
   }
   outcome.after = measure();
   return outcome;
+}
+
+RunPlan SmoothRun::plan(Console& console, const TriangleMesh& mesh) const {
+  return {parse_problem(console, problem_, mesh),
+          parse_method(*app_, method_, RecordDetail::stages).make_smoother, polish_options_};
 }
 
 void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words) {
@@ -114,6 +123,15 @@ void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words) {
     throw UsageError(std::string("the arguments of the trace are not understood: ") + error.what());
   }
   run.check();
+}
+
+RunPlan read_plan(const RunWords& words, const TriangleMesh& mesh) {
+  Console silent;
+  silent.set_verbosity(Verbosity::quiet);
+  CLI::App app;
+  SmoothRun run;
+  read_words(run, app, words.arguments);
+  return run.plan(silent, mesh);
 }
 
 }  // namespace isorelax::cli

@@ -7,7 +7,7 @@
 #include "cli/problem_options.h"
 #include "quality/report.h"
 #include "smoothing/unguarded_run.h"
-#include "trace/trace.h"
+#include "trace/redo.h"
 
 namespace CLI {
 class App;
@@ -44,7 +44,11 @@ class SmoothRun {
   /// Smooths in place, with progress on the console. `input` names the mesh in errors. Throws InputError,
   /// MeshError, UsageError.
   SmoothOutcome smooth(Console& console, const std::string& input, TriangleMesh& mesh,
-                       const StepObserver& observer = {}) const;
+                       const StepObserver& observer = {}, const PartObserver& part_observer = {}) const;
+
+  /// What `smooth` makes the steps of this mesh with; their records keep all detail. Throws InputError,
+  /// UsageError.
+  [[nodiscard]] RunPlan plan(Console& console, const TriangleMesh& mesh) const;
 
   [[nodiscard]] const DeviationLimit& limit() const { return limit_; }
 
@@ -64,5 +68,8 @@ class SmoothRun {
 /// Reads the words of SmoothRun::words() into `run`. `app` is a fresh one that lives as long. Throws
 /// UsageError.
 void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words);
+
+/// A PlanReader for the words of SmoothRun::words(). Throws UsageError, InputError.
+[[nodiscard]] RunPlan read_plan(const RunWords& words, const TriangleMesh& mesh);
 
 }  // namespace isorelax::cli

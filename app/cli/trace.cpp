@@ -19,6 +19,7 @@
 #include "trace/trace_diff.h"
 #include "trace/trace_export.h"
 #include "trace/trace_file.h"
+#include "trace/trace_parts.h"
 
 namespace isorelax::cli {
 namespace {
@@ -129,7 +130,9 @@ class TraceCommand : public Command {
     diff_->add_option("B", other_, "Recorded run")->required();
     diff_->add_flag("--json", json_, "As JSON");
     replay_ = app.add_subcommand(
-        "replay", "Do the run again and compare every position to the bit; exit status 1 where one differs");
+        "replay",
+        "Do the run again and compare every position to the bit; exit status 1 where one differs. What was "
+        "broken off or forked in the editor is done again part by part");
     replay_->add_option("TRACE", file_, "Recorded run")->required();
     replay_->add_option("--threads", threads_, "Threads (default: all; results do not depend on it)")
         ->type_name("N");
@@ -174,6 +177,11 @@ class TraceCommand : public Command {
                           std::to_string(trace.triangles.size()) + " triangles");
     table.row("arguments", trace.arguments.empty() ? "none" : trace.arguments_text());
     for (const TraceResource& file : trace.resources) table.row("read", file.path + " (" + file.hash + ")");
+    for (const TracePart& part : trace.parts) {
+      // One that is all that the arguments say has nothing to tell.
+      if (trace.parts.size() > 1 || part.from_base || part.holds != SurfaceHolds{})
+        table.row("part", part_text(part));
+    }
     table.row("stopped", trace.stopped_because);
     console.result(one_line_each(table.text()) + "\n" + iteration_table(trace));
     return kDone;
@@ -243,20 +251,50 @@ class TraceCommand : public Command {
   }
 
   int replay(Console& console, const Trace& trace) const {
-    for (const TraceResource& file : trace.resources) {
-      if (hash_of(read_bytes(file.path)) != file.hash)
-        throw InputError(file.path, "", "is not what the recorded run read: its hash differs");
+    return is_whole_run(trace) ? replay_run(console, trace) : replay_by_parts(console, trace);
+  }
+
+  /// Whether the arguments alone say all that was done: not where it was broken off, nor for branches of the
+  /// editor.
+  static bool is_whole_run(const Trace& trace) {
+    const bool broken_off = trace.stopped == name_of(StopReason::cancelled);
+    return trace.parts.empty() || (!broken_off && std::ranges::none_of(trace.parts, [](const TracePart& p) {
+             return p.words.has_value();
+           }));
+  }
+
+  int replay_by_parts(Console& console, const Trace& trace) const {
+    const auto parting = replay_parts(trace, [&](const RunWords& words, const TriangleMesh& mesh) {
+      check_resources(words);
+      RunPlan plan = read_plan(words, mesh);
+      if (threads_) plan.problem.threads = *threads_;
+      return plan;
+    });
+    if (parting) {
+      console.result("the replay parts at " + parting_text(*parting) + "\n");
+      return kCheckFailed;
     }
+    console.result("the same to the bit for " + std::to_string(trace.iterations.size()) +
+                   " iterations, done again in " + std::to_string(trace.parts.size()) +
+                   (trace.parts.size() == 1 ? " part\n" : " parts, each from where it began\n"));
+    return kDone;
+  }
+
+  int replay_run(Console& console, const Trace& trace) const {
+    check_resources(trace);
     CLI::App app;
     SmoothRun run;
     read_words(run, app, trace.arguments);
     if (threads_) run.set_threads(*threads_);
     TriangleMesh mesh{trace.positions, trace.triangles, {}};
     TraceRecorder recorder({}, mesh);
-    (void)run.smooth(console, trace.input, mesh, [&](unsigned k, const StepRecord& step, auto positions) {
-      recorder.add(k, step, positions);
-      return true;
-    });
+    (void)run.smooth(
+        console, trace.input, mesh,
+        [&](unsigned k, const StepRecord& step, auto positions) {
+          recorder.add(k, step, positions);
+          return true;
+        },
+        [&](const RunPart& part, auto positions) { recorder.begin_part(part, positions); });
     const Trace& again = recorder.trace();
     const TraceDifference found = compare_traces(trace, again);
     if (found.none()) {

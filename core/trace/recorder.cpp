@@ -4,6 +4,7 @@
 
 #include "quality/report.h"
 #include "trace/position_delta.h"
+#include "trace/trace_parts.h"
 
 namespace isorelax {
 
@@ -16,6 +17,7 @@ TraceRecorder::TraceRecorder(Trace trace, const TriangleMesh& mesh, unsigned thr
   trace_.triangles = mesh.triangles;
   trace_.quality = measure(mesh.positions);
   trace_.iterations.clear();
+  trace_.parts.clear();
 }
 
 TraceQuality TraceRecorder::measure(std::span<const Vec3> positions) const {
@@ -23,13 +25,33 @@ TraceQuality TraceRecorder::measure(std::span<const Vec3> positions) const {
   return {report.min_angle_deg, report.max_angle_deg, report.mean_min_angle_deg, report.inverted};
 }
 
-void TraceRecorder::add(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
-  if (iteration != trace_.iterations.size() + 1) {
-    TraceCursor cursor(trace_);
-    last_ = cursor.go_to(iteration - 1);
-    trace_.iterations.resize(iteration - 1);
-    classes_.clear();
+void TraceRecorder::go_back_to(std::size_t iteration) {
+  if (iteration == trace_.iterations.size()) return;
+  TraceCursor cursor(trace_);
+  last_ = cursor.go_to(iteration);
+  trace_.iterations.resize(iteration);
+  classes_.clear();
+}
+
+void TraceRecorder::begin_part(const RunPart& part, std::span<const Vec3> positions) {
+  go_back_to(part.done);
+  std::erase_if(trace_.parts, [&](const TracePart& one) { return one.done >= part.done; });
+  TracePart entry;
+  entry.done = part.done;
+  entry.exponent = part.exponent;
+  entry.kind = part.polish ? PartKind::polish : PartKind::solver;
+  entry.holds = part.holds;
+  if (part.done > 0) {
+    if (!trace_.parts.empty()) entry.base = trace_.parts.front().base;
+  } else if (!same_bits(trace_.positions, positions)) {
+    entry.base = encode_delta(trace_.positions, positions);
+    entry.from_base = true;
   }
+  trace_.parts.push_back(std::move(entry));
+}
+
+void TraceRecorder::add(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
+  go_back_to(iteration - 1);
   TraceIteration entry;
   entry.before = record.before;
   entry.after = record.after;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/topology.h"
+#include "smoothing/bounded_run.h"
 #include "trace/trace.h"
 
 namespace isorelax {
@@ -16,10 +17,15 @@ class TraceRecorder {
   /// again with more vertices held leaves only its last attempt.
   void add(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions);
 
+  /// The next iterations are made with this, from these positions; as a PartObserver. One that is not the
+  /// next begins the run anew from there, too.
+  void begin_part(const RunPart& part, std::span<const Vec3> positions);
+
   [[nodiscard]] const Trace& trace() const { return trace_; }
   [[nodiscard]] Trace& trace() { return trace_; }
 
  private:
+  void go_back_to(std::size_t iteration);
   [[nodiscard]] TraceQuality measure(std::span<const Vec3> positions) const;
 
   Trace trace_;

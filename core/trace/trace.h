@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
+#include "smoothing/problem.h"
 #include "smoothing/step_record.h"
 
 namespace isorelax {
@@ -44,18 +46,50 @@ struct TraceResource {
   bool operator==(const TraceResource&) const = default;
 };
 
-/// A recorded run, whole: what it began with and everything it did.
-struct Trace {
-  std::string program;  ///< name and version of the program that ran
-  std::string input;    ///< where the mesh came from
-  /// The run as words of a command line, without input and output: `isorelax smooth IN -o OUT WORDS...` does
-  /// it again.
+/// What a run was asked to do.
+struct RunWords {
+  /// As words of a command line, without input and output: `isorelax smooth IN -o OUT WORDS...`.
   std::vector<std::string> arguments;
   std::vector<TraceResource> resources;
+
+  bool operator==(const RunWords&) const = default;
+};
+
+/// What makes the steps of a part.
+enum class PartKind : std::uint8_t {
+  solver,  ///< what the words name
+  polish,  ///< make_polish
+};
+
+/// What the iterations from one on are made with, beside the words: enough to make any of them again. Its
+/// first step is made by a smoother that knows nothing of the steps before.
+struct TracePart {
+  std::size_t done = 0;  ///< iterations before its first
+  double exponent = kDefaultExponent;
+  PartKind kind = PartKind::solver;
+  SurfaceHolds holds;
+  /// Delta (position_delta.h) from the trace's positions to those that the problem is made from; empty: it is
+  /// made from the trace's positions.
+  std::string base;
+  /// The first step is made from these and not from where the iterations before led: untangling, which is no
+  /// iteration, was between.
+  bool from_base = false;
+  std::optional<RunWords> words;  ///< where they are not the trace's own
+
+  bool operator==(const TracePart&) const = default;
+};
+
+/// A recorded run, whole: what it began with and everything it did.
+struct Trace : RunWords {
+  std::string program;          ///< name and version of the program that ran
+  std::string input;            ///< where the mesh came from
   std::vector<Vec3> positions;  ///< at the start
   std::vector<Triangle> triangles;
   TraceQuality quality;  ///< at the start
   std::vector<TraceIteration> iterations;
+  /// Ascending by `done`, the first with 0. Empty where nothing is known of them: how the steps were made is
+  /// then what the words alone say.
+  std::vector<TracePart> parts;
   std::string stopped;          ///< why the run ended, in one word
   std::string stopped_because;  ///< and in one sentence
 

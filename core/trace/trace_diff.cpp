@@ -1,18 +1,11 @@
 #include "trace/trace_diff.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+
+#include "trace/trace_parts.h"
 
 namespace isorelax {
 namespace {
-
-bool same_bits(const Vec3& a, const Vec3& b) {
-  const auto same = [](double x, double y) {
-    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-  };
-  return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
-}
 
 double largest_distance(std::span<const Vec3> first, std::span<const Vec3> second) {
   double largest = 0;
@@ -27,6 +20,24 @@ std::string listed(const std::vector<TraceResource>& files) {
   return text;
 }
 
+/// How the parts differ that both have, and which ones only one has. Where nothing is known of them in one,
+/// nothing is said.
+void compare_parts(const Trace& first, const Trace& second, std::vector<TraceSetting>& settings) {
+  if (first.parts.empty() || second.parts.empty()) return;
+  for (std::size_t k = 0; k < std::max(first.parts.size(), second.parts.size()); ++k) {
+    const TracePart* a = k < first.parts.size() ? &first.parts[k] : nullptr;
+    const TracePart* b = k < second.parts.size() ? &second.parts[k] : nullptr;
+    if (a != nullptr && b != nullptr && *a == *b) continue;
+    TraceSetting setting{"part " + std::to_string(k + 1), a != nullptr ? part_text(*a) : "none",
+                         b != nullptr ? part_text(*b) : "none"};
+    if (setting.first == setting.second) {
+      if (a->holds == b->holds) continue;  // the start differs, which is told elsewhere
+      setting.second += ", others";
+    }
+    settings.push_back(std::move(setting));
+  }
+}
+
 }  // namespace
 
 bool TraceDifference::none() const {
@@ -37,7 +48,7 @@ std::optional<TraceParting> find_parting(std::span<const Vec3> first, std::span<
                                          std::size_t iteration) {
   std::optional<TraceParting> parting;
   for (Index v = 0; v < first.size(); ++v) {
-    if (same_bits(first[v], second[v])) continue;
+    if (same_bits({&first[v], 1}, {&second[v], 1})) continue;
     if (!parting) parting = TraceParting{iteration, v, 0, first[v], second[v], 0};
     ++parting->vertices;
     parting->largest = std::max(parting->largest, (first[v] - second[v]).norm());
@@ -54,6 +65,7 @@ TraceDifference compare_traces(const Trace& first, const Trace& second) {
   setting("input", first.input, second.input);
   setting("arguments", first.arguments_text(), second.arguments_text());
   setting("files read", listed(first.resources), listed(second.resources));
+  compare_parts(first, second, found.settings);
   setting("iterations", std::to_string(first.iterations.size()), std::to_string(second.iterations.size()));
   setting("stopped", first.stopped, second.stopped);
   found.same_length = first.iterations.size() == second.iterations.size();

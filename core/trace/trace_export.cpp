@@ -117,6 +117,23 @@ std::string trace_csv(const Trace& trace) {
   return text;
 }
 
+namespace {
+
+Json part_json(const TracePart& part) {
+  Json json;
+  json["first_iteration"] = part.done + 1;
+  json["kind"] = part.kind == PartKind::polish ? "polish" : "solver";
+  json["exponent"] = part.exponent;
+  json["untangled_first"] = part.from_base;
+  json["held"] = part.holds.still;
+  json["kept_near"] = part.holds.near;
+  json["near_distance"] = part.holds.distance;
+  if (part.words) json["arguments"] = part.words->arguments;
+  return json;
+}
+
+}  // namespace
+
 std::string trace_json(const Trace& trace) {
   Json json;
   json["program"] = trace.program;
@@ -126,6 +143,8 @@ std::string trace_json(const Trace& trace) {
   json["triangles"] = trace.triangles.size();
   json["stopped"] = trace.stopped;
   json["stopped_because"] = trace.stopped_because;
+  json["parts"] = Json::array();
+  for (const TracePart& part : trace.parts) json["parts"].push_back(part_json(part));
   Json iterations = Json::array();
   for (std::size_t k = 1; k <= trace.iterations.size(); ++k) {
     Json one{{"iteration", k}};

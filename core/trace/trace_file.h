@@ -11,11 +11,18 @@ namespace isorelax {
 /// Trace files. After the eight letters of kTraceMagic and a version stand parts, one after the other:
 ///   name (4 letters), size of the content (8 bytes), size as stored (8), what is stored, hash (8)
 /// HEAD: JSON: program, input, arguments, resources, counts, quality at the start, why the run stopped
-/// MESH: positions and triangles; then for each iteration STEP: its numbers, and MOVE: its delta; DONE:
-/// nothing. Contents are compressed with zstd; the hash is FNV-1a over all of the part. Numbers are little
-/// endian.
+/// MESH: positions and triangles; then for each TracePart PART: its numbers, its held vertices, its words as
+/// JSON, and BASE: its delta (nothing where there is none); then for each iteration STEP: its numbers, and
+/// MOVE: its delta; DONE: nothing. Contents are compressed with zstd; the hash is FNV-1a over all of the
+/// part. Numbers are little endian.
+///
+/// PART begins with done (8 bytes), exponent, distance of the holds (doubles), flags (8: 1 polish, 2
+/// from_base, 4 words of its own), the counts of vertices held still and near (8 each) and these vertices (4
+/// each). Version 1 had no TraceParts.
 inline constexpr std::string_view kTraceMagic = "ISOTRACE";
-inline constexpr std::uint32_t kTraceVersion = 1;
+inline constexpr std::uint32_t kTraceVersion = 2;
+inline constexpr std::uint32_t kFirstTraceVersion = 1;
+enum TracePartFlag : std::uint64_t { kTracePartPolish = 1, kTracePartFromBase = 2, kTracePartWords = 4 };
 
 /// The bytes of a trace file.
 [[nodiscard]] std::string trace_bytes(const Trace& trace);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,31 @@
 namespace isorelax {
 namespace {
 
+/// Takes numbers from the front of a part's content.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view bytes) : bytes_(bytes) {}
+
+  /// False where the content ends before.
+  template <typename T>
+  bool take(T& value) {
+    if (bytes_.size() < sizeof(T)) return false;
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+    return true;
+  }
+  [[nodiscard]] std::string_view rest() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+};
+
+void get_words(const nlohmann::json& json, RunWords& words) {
+  words.arguments = json.at("arguments").get<std::vector<std::string>>();
+  for (const nlohmann::json& file : json.at("resources"))
+    words.resources.push_back({file.at("path").get<std::string>(), file.at("hash").get<std::string>()});
+}
+
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -17,12 +43,15 @@ class Reader {
     if (bytes_.substr(0, kTraceMagic.size()) != kTraceMagic) fail(0, "is not a trace of isorelax");
     at_ = kTraceMagic.size();
     const auto version = number<std::uint32_t>();
-    if (version != kTraceVersion) {
-      fail(kTraceMagic.size(), "is of version " + std::to_string(version) + "; this program reads version " +
+    if (version < kFirstTraceVersion || version > kTraceVersion) {
+      fail(kTraceMagic.size(), "is of version " + std::to_string(version) + "; this program reads versions " +
+                                   std::to_string(kFirstTraceVersion) + " to " +
                                    std::to_string(kTraceVersion));
     }
-    read_head();
+    read_head(version);
     read_mesh();
+    for (std::size_t k = 0; k < trace_.parts.size(); ++k)
+      read_part(trace_.parts[k], k == 0 ? nullptr : &trace_.parts[k - 1]);
     for (TraceIteration& iteration : trace_.iterations) read_iteration(iteration);
     (void)part("DONE");
     if (at_ != bytes_.size()) fail(at_, "something follows the end of the trace");
@@ -72,20 +101,21 @@ class Reader {
     return content;
   }
 
-  void read_head() {
+  void read_head(std::uint32_t version) {
     const nlohmann::json json = nlohmann::json::parse(part("HEAD"), nullptr, false);
     try {
       trace_.program = json.at("program").get<std::string>();
       trace_.input = json.at("input").get<std::string>();
-      trace_.arguments = json.at("arguments").get<std::vector<std::string>>();
-      for (const nlohmann::json& file : json.at("resources"))
-        trace_.resources.push_back({file.at("path").get<std::string>(), file.at("hash").get<std::string>()});
+      get_words(json, trace_);
       vertices_ = json.at("vertices").get<std::size_t>();
       triangles_ = json.at("triangles").get<std::size_t>();
       const auto iterations = json.at("iterations").get<std::size_t>();
+      const auto parts = version > kFirstTraceVersion ? json.at("parts").get<std::size_t>() : 0;
       // Each takes bytes of its own: a lying count asks for no more memory than the file has.
-      if (iterations > bytes_.size()) fail(part_start_, "promises more iterations than the file can hold");
+      if (iterations > bytes_.size() || parts > bytes_.size())
+        fail(part_start_, "promises more iterations than the file can hold");
       trace_.iterations.resize(iterations);
+      trace_.parts.resize(parts);
       trace_.quality = {json.at("min_angle_deg").get<double>(), json.at("max_angle_deg").get<double>(),
                         json.at("mean_min_angle_deg").get<double>(), json.at("inverted").get<std::size_t>()};
       trace_.stopped = json.at("stopped").get<std::string>();
@@ -109,6 +139,52 @@ class Reader {
       for (const Index v : t) {
         if (v >= vertices_) fail(part_start_, "a triangle names a vertex that is not there");
       }
+    }
+  }
+
+  void read_part(TracePart& read, const TracePart* before) {
+    const std::string content = part("PART");
+    Numbers numbers(content);
+    std::uint64_t done = 0, flags = 0, still = 0, near = 0;
+    if (!numbers.take(done) || !numbers.take(read.exponent) || !numbers.take(read.holds.distance) ||
+        !numbers.take(flags) || !numbers.take(still) || !numbers.take(near))
+      fail(part_start_, "a part of the run lacks numbers");
+    if (before == nullptr ? done != 0 : done <= before->done || done > trace_.iterations.size())
+      fail(part_start_, "the parts of the run are not in order");
+    if (!std::isfinite(read.exponent) || !(read.exponent >= 1) || !std::isfinite(read.holds.distance) ||
+        read.holds.distance < 0 || flags > (kTracePartPolish | kTracePartFromBase | kTracePartWords))
+      fail(part_start_, "a part of the run has numbers that cannot be");
+    read.done = done;
+    read.kind = (flags & kTracePartPolish) != 0 ? PartKind::polish : PartKind::solver;
+    read.from_base = (flags & kTracePartFromBase) != 0;
+    read_held(numbers, still, read.holds.still);
+    read_held(numbers, near, read.holds.near);
+    if ((flags & kTracePartWords) != 0) {
+      read_words(numbers.rest(), read);
+    } else if (!numbers.rest().empty()) {
+      fail(part_start_, "something follows the numbers of a part of the run");
+    }
+    std::uint64_t size = 0;
+    read.base = stored("BASE", size);
+    if (size != (read.base.empty() ? 0 : vertices_ * sizeof(Vec3)))
+      fail(part_start_, "the positions of a part of the run are those of another mesh");
+  }
+
+  void read_held(Numbers& numbers, std::uint64_t count, std::vector<Index>& held) {
+    if (count > numbers.rest().size() / sizeof(Index))
+      fail(part_start_, "a part of the run lacks held vertices");
+    held.resize(count);
+    for (Index& v : held) {
+      if (!numbers.take(v) || v >= vertices_) fail(part_start_, "a held vertex of the run is not there");
+    }
+  }
+
+  void read_words(std::string_view text, TracePart& read) {
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    try {
+      get_words(json, read.words.emplace());
+    } catch (const nlohmann::json::exception& error) {
+      fail(part_start_, std::string("the words of a part cannot be understood: ") + error.what());
     }
   }
 

@@ -29,25 +29,54 @@ void append_part(std::string& bytes, std::string_view name, std::string_view con
   append_packed(bytes, name, content.size(), compress(content));
 }
 
+void put_words(nlohmann::ordered_json& json, const RunWords& words) {
+  json["arguments"] = words.arguments;
+  json["resources"] = nlohmann::ordered_json::array();
+  for (const TraceResource& file : words.resources)
+    json["resources"].push_back({{"path", file.path}, {"hash", file.hash}});
+}
+
+/// A file name may hold bytes that are not text.
+std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string head(const Trace& trace) {
   nlohmann::ordered_json json;
   json["program"] = trace.program;
   json["input"] = trace.input;
-  json["arguments"] = trace.arguments;
-  json["resources"] = nlohmann::ordered_json::array();
-  for (const TraceResource& file : trace.resources)
-    json["resources"].push_back({{"path", file.path}, {"hash", file.hash}});
+  put_words(json, trace);
   json["vertices"] = trace.positions.size();
   json["triangles"] = trace.triangles.size();
   json["iterations"] = trace.iterations.size();
+  json["parts"] = trace.parts.size();
   json["min_angle_deg"] = trace.quality.min_angle_deg;
   json["max_angle_deg"] = trace.quality.max_angle_deg;
   json["mean_min_angle_deg"] = trace.quality.mean_min_angle_deg;
   json["inverted"] = trace.quality.inverted;
   json["stopped"] = trace.stopped;
   json["stopped_because"] = trace.stopped_because;
-  // A file name may hold bytes that are not text.
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text_of(json);
+}
+
+std::string content_of(const TracePart& part) {
+  std::string bytes;
+  append(bytes, std::uint64_t{part.done});
+  append(bytes, part.exponent);
+  append(bytes, part.holds.distance);
+  append(bytes, (part.kind == PartKind::polish ? kTracePartPolish : std::uint64_t{0}) |
+                    (part.from_base ? kTracePartFromBase : std::uint64_t{0}) |
+                    (part.words ? kTracePartWords : std::uint64_t{0}));
+  append(bytes, std::uint64_t{part.holds.still.size()});
+  append(bytes, std::uint64_t{part.holds.near.size()});
+  for (const Index v : part.holds.still) append(bytes, v);
+  for (const Index v : part.holds.near) append(bytes, v);
+  if (part.words) {
+    nlohmann::ordered_json json;
+    put_words(json, *part.words);
+    bytes += text_of(json);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -62,6 +91,10 @@ std::string trace_bytes(const Trace& trace) {
     for (const double x : p) append(mesh, x);
   for (const Triangle& t : trace.triangles) append(mesh, t);
   append_part(bytes, "MESH", mesh);
+  for (const TracePart& part : trace.parts) {
+    append_part(bytes, "PART", content_of(part));
+    append_packed(bytes, "BASE", part.base.empty() ? 0 : trace.positions.size() * sizeof(Vec3), part.base);
+  }
   for (const TraceIteration& iteration : trace.iterations) {
     std::string numbers;
     visit_numbers(iteration, [&](std::string_view, const auto& value) { append(numbers, value); });
