@@ -5,6 +5,7 @@
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/smooth_run.h"
 #include "render/picture_size.h"
 
 namespace isorelax::cli {
@@ -42,6 +43,7 @@ class ScriptCommand : public Command {
   }
   int run(Console& console) override {
     editor::ScriptOptions options;
+    options.read_plan = read_plan;
     options.file = file_;
     options.pictures = pictures_;
     if (!size_.empty()) options.size = render::parse_size(size_);

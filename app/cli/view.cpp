@@ -5,6 +5,7 @@
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/smooth_run.h"
 #include "editor/screenshot.h"
 #include "io/mesh_file.h"
 #include "mesh/error.h"
@@ -53,6 +54,7 @@ class ViewCommand : public Command {
       return kDone;
     }
     window::WindowOptions options;
+    options.read_plan = read_plan;
     options.files.assign(files_.begin(), files_.end());
     if (!size_.empty()) {
       const render::PictureSize size = render::parse_size(size_);
@@ -68,6 +70,7 @@ class ViewCommand : public Command {
  private:
   void take_screenshot(Console& console) const {
     editor::ScreenshotOptions options;
+    options.read_plan = read_plan;
     if (!files_.empty()) options.file = files_.front();
     if (!size_.empty()) options.size = render::parse_size(size_);
     options.scale = static_cast<float>(scale_);

@@ -33,13 +33,15 @@ ui::FontFiles font_files() {
 
 }  // namespace
 
-Editor::Editor(render::GlLoader loader, Motion motion)
+Editor::Editor(render::GlLoader loader, Motion motion, PlanReader read_plan)
     : interface_(font_files()),
       current_(loader),
       before_(loader),
       loader_(loader),
       painter_(loader),
-      motion_(motion) {}
+      motion_(motion) {
+  session_.engine.set_plan_reader(std::move(read_plan));
+}
 
 void Editor::frame(const FrameOptions& options) {
   const auto start = Clock::now();

@@ -21,7 +21,8 @@ enum class Motion : std::uint8_t { animated, instant };
 /// context for its whole life.
 class Editor {
  public:
-  explicit Editor(render::GlLoader loader, Motion motion = Motion::animated);
+  /// `read_plan` understands the words that recorded runs were made with (Engine::set_plan_reader).
+  explicit Editor(render::GlLoader loader, Motion motion = Motion::animated, PlanReader read_plan = {});
 
   struct FrameOptions {
     render::PictureSize size;

@@ -15,7 +15,7 @@ void throw_on_error(const model::Session& session) {
 
 render::Image take_screenshot(const ScreenshotOptions& options) {
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
-  Editor editor(context->loader(), Motion::instant);
+  Editor editor(context->loader(), Motion::instant, options.read_plan);
   model::Session& session = editor.session();
   if (options.file) {
     model::execute(session, model::OpenFile{*options.file});

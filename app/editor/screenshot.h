@@ -13,6 +13,7 @@ struct ScreenshotOptions {
   render::PictureSize size{1280, 720};
   float scale = 1;
   unsigned iterations = 0;  ///< done before the picture is taken
+  PlanReader read_plan{};   ///< for recorded runs; as the Editor's
 };
 
 /// A picture of the whole editor, drawn without a display. Throws Error when the file cannot be read, a run

@@ -67,7 +67,7 @@ class Player {
         pictures_(options.pictures.empty() ? folder_ : options.pictures),
         size_(options.size),
         context_(render::OffscreenContext::create(render::ContextKind::osmesa)),
-        editor_(context_->loader(), Motion::instant) {}
+        editor_(context_->loader(), Motion::instant, options_.read_plan) {}
 
   ScriptResult play() {
     std::ifstream file(options_.file);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/camera.h"
+#include "trace/redo.h"
 
 namespace isorelax::editor {
 
@@ -14,6 +15,7 @@ struct ScriptOptions {
   std::filesystem::path pictures;       ///< folder for screenshots; empty: the script's
   render::PictureSize size{1280, 720};  ///< of the editor, until the script says otherwise
   float scale = 1;                      ///< pixels per point
+  PlanReader read_plan{};               ///< for recorded runs; as the Editor's
 };
 
 /// What came of it.

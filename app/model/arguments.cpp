@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 
+#include "io/mesh_file.h"
+#include "mesh/error.h"
 #include "model/command.h"
 
 namespace isorelax::model {
@@ -96,7 +98,6 @@ bool read_features(const std::string& word, SmoothingSettings& s) {
 bool read_pins(const std::string& word, SmoothingSettings& s) {
   constexpr std::string_view kVertices = "vertices:";
   if (!word.starts_with(kVertices)) return false;
-  s.pinned.clear();
   for (std::size_t at = kVertices.size(); at <= word.size();) {
     const std::size_t comma = std::min(word.find(',', at), word.size());
     Index id = 0;
@@ -105,6 +106,7 @@ bool read_pins(const std::string& word, SmoothingSettings& s) {
     at = comma + 1;
   }
   std::ranges::sort(s.pinned);
+  s.pinned.erase(std::ranges::unique(s.pinned).begin(), s.pinned.end());
   return true;
 }
 
@@ -136,7 +138,7 @@ const std::map<std::string, Reader>& readers() {
       {"--iterations", [](const std::string& w, S& s) { return read_number(w, s.iterations); }},
       {"--tolerance", [](const std::string& w, S& s) { return read_number(w, s.tolerance); }},
       {"--pin", read_pins},
-      // Results do not depend on the first. Where the second held vertices, the steps say so.
+      // Results do not depend on the first; where the second held vertices, the parts of the run say so.
       {"--threads", [](const std::string&, S&) { return true; }},
       {"--max-deviation", [](const std::string&, S&) { return true; }}};
   return kReaders;
@@ -167,15 +169,35 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   return words;
 }
 
-std::optional<SmoothingSettings> from_words(std::span<const std::string> words,
-                                            const SmoothingSettings& others) {
+SmoothingSettings nearest_settings(std::span<const std::string> words, const SmoothingSettings& others,
+                                   std::vector<std::string>& unknown) {
   SmoothingSettings settings = others;
-  if (words.size() % 2 != 0) return std::nullopt;
+  // Each adds to the others.
+  if (std::ranges::find(words, "--pin") != words.end()) settings.pinned.clear();
   for (std::size_t k = 0; k < words.size(); k += 2) {
+    const std::string value = k + 1 < words.size() ? words[k + 1] : std::string();
     const auto reader = readers().find(words[k]);
-    if (reader == readers().end() || !reader->second(words[k + 1], settings)) return std::nullopt;
+    SmoothingSettings read = settings;
+    if (reader != readers().end() && k + 1 < words.size() && reader->second(value, read))
+      settings = std::move(read);
+    else
+      unknown.push_back(value.empty() ? words[k] : words[k] + " " + value);
   }
   return settings;
+}
+
+std::optional<SmoothingSettings> from_words(std::span<const std::string> words,
+                                            const SmoothingSettings& others) {
+  std::vector<std::string> unknown;
+  const SmoothingSettings settings = nearest_settings(words, others, unknown);
+  return unknown.empty() ? std::optional(settings) : std::nullopt;
+}
+
+SmoothingSettings settings_of(const RunWords& words) {
+  if (const auto settings = from_words(words.arguments)) return *settings;
+  std::string text;
+  for (const std::string& word : words.arguments) text += (text.empty() ? "" : " ") + word;
+  throw UsageError("the run was made with \"" + text + "\", which the editor has no settings for");
 }
 
 Trace about(const Document& document, const SmoothingSettings& settings) {
@@ -183,6 +205,8 @@ Trace about(const Document& document, const SmoothingSettings& settings) {
   trace.program = "isorelax " ISORELAX_VERSION;
   trace.input = document.path.string();
   trace.arguments = to_words(settings);
+  if (settings.reference == ReferenceKind::file)
+    trace.resources.push_back({settings.reference_file, hash_of(read_bytes(settings.reference_file))});
   return trace;
 }
 

@@ -19,7 +19,15 @@ namespace isorelax::model {
 [[nodiscard]] std::optional<SmoothingSettings> from_words(std::span<const std::string> words,
                                                           const SmoothingSettings& others = {});
 
-/// The head of a trace of a run that the editor makes.
+/// The same for what is known of the words; `unknown` gets the others, "--option value" each.
+[[nodiscard]] SmoothingSettings nearest_settings(std::span<const std::string> words,
+                                                 const SmoothingSettings& others,
+                                                 std::vector<std::string>& unknown);
+
+/// The settings that a run was made with. Throws UsageError where the editor has not all of them.
+[[nodiscard]] SmoothingSettings settings_of(const RunWords& words);
+
+/// The head of a trace of a run that the editor makes. Reads the reference file; throws InputError.
 [[nodiscard]] Trace about(const Document& document, const SmoothingSettings& settings);
 
 }  // namespace isorelax::model

@@ -77,6 +77,11 @@ void Engine::wait() const {
   changed_.wait(lock, [&] { return !events_.empty() || (!running_ && waiting_.empty()); });
 }
 
+void Engine::set_plan_reader(PlanReader reader) {
+  const std::scoped_lock lock(mutex_);
+  bench_.set_plan_reader(std::move(reader));
+}
+
 void Engine::set_wake(std::function<void()> wake) {
   const std::scoped_lock lock(mutex_);
   wake_ = std::move(wake);

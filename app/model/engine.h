@@ -66,6 +66,9 @@ class Engine {
   [[nodiscard]] bool busy() const;
   /// Blocks until there is an event to collect or nothing runs. For tests and programs without a window.
   void wait() const;
+  /// How the words are understood that a recorded run was made with; without one only those for which the
+  /// editor has settings. It is called on the worker. Precondition: no job was posted yet.
+  void set_plan_reader(PlanReader reader);
   /// Called on the worker after each event: wakes a window that sleeps.
   void set_wake(std::function<void()> wake);
 

@@ -158,12 +158,14 @@ struct Followed {
 /// A recorded run was read.
 struct TraceOpened {
   std::filesystem::path path;
-  Trace head;  ///< without positions and deltas
+  Trace head;  ///< the program, and why it stopped
   std::vector<IterationRow> rows;
   std::vector<StepSummary> steps;
   std::shared_ptr<Recording> recording;
-  std::optional<SmoothingSettings> settings;  ///< none: with options that the editor does not know
-  DocumentPtr document;  ///< of its mesh; null when it joins the runs of the open document
+  SmoothingSettings settings;              ///< the nearest that the editor has
+  std::vector<std::string> unknown_words;  ///< what it has no settings for, "--option value" each
+  std::string not_redone;                  ///< why its steps cannot be made again; empty: they can
+  DocumentPtr document;                    ///< of its mesh; null when it joins the runs of the open document
   MeshStatePtr state;
 };
 /// Recorded iterations were looked at for breakpoints.

@@ -2,6 +2,7 @@
 
 #include "model/command.h"
 #include "model/timeline_jobs.h"
+#include "model/trace_jobs.h"
 
 namespace isorelax::model {
 

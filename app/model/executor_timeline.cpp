@@ -52,14 +52,12 @@ Place Executor::place_of(unsigned branch, unsigned iteration) const {
 }
 
 PathRequest Executor::path_of(unsigned branch, unsigned last) const {
-  PathRequest path{s_.document, s_.smoothing, {}, {}};
+  PathRequest path{s_.document, {}};
   if (s_.timeline.empty()) return path;
-  path.settings = s_.timeline.branches[branch].settings;
   for (unsigned b = branch, end = last;;) {
     const Branch& held = s_.timeline.branches[b];
     if (end >= held.start) {
       path.segments.insert(path.segments.begin(), {held.recording, end - held.start, held.not_redone});
-      path.from.insert(path.from.begin(), 0);
       end = held.start;
     }
     if (!held.parent) break;
@@ -120,7 +118,8 @@ void Executor::begin_branch() {
   branch.parent = branch_shown_at_start();
   branch.name = branch_name(s_.smoothing, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
   branch.recording = std::make_shared<Recording>();
-  if (s_.current->energy && same_energy(s_.current->energy->settings, s_.smoothing)) {
+  if (s_.current->energy && !s_.current->energy->of_record &&
+      same_energy(s_.current->energy->settings, s_.smoothing)) {
     const QualityReport& q = s_.current->quality();
     branch.rows.push_back(
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
@@ -296,7 +295,7 @@ void Executor::follow_selection() {
       path->positions.size() == last + 1)
     return;
   PathRequest line = path_of(branch, last);
-  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, std::move(line.segments), line.from}));
+  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, std::move(line.segments)}));
 }
 
 void Executor::operator()(Followed& event) {

@@ -3,6 +3,15 @@
 #include "model/executor.h"
 
 namespace isorelax::model {
+namespace {
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
 
 void Executor::operator()(const CompareBranches& command) {
   const auto count = s_.timeline.branches.size();
@@ -55,22 +64,21 @@ void Executor::operator()(TraceOpened& event) {
   const bool alone = event.document != nullptr;
   if (alone) {
     Loaded loaded{std::move(event.document), std::move(event.state), {}};
-    if (event.settings) s_.smoothing = *event.settings;
+    s_.smoothing = event.settings;
     (*this)(loaded);
-    s_.recent.erase(s_.recent.begin());  // the mesh in it may be in no file
+    s_.smoothing.pinned = event.settings.pinned;  // of this document, not of the one before
+    s_.recent.erase(s_.recent.begin());           // the mesh in it may be in no file
     remember_recent(event.path);
   }
   Branch branch;
   branch.name = event.path.filename().string();
-  branch.settings = event.settings.value_or(s_.smoothing);
+  branch.settings = event.settings;
   branch.rows = std::move(event.rows);
   branch.steps = std::move(event.steps);
   branch.ended = event.head.stopped_because;
   branch.recording = std::move(event.recording);
   branch.from_file = true;
-  if (!event.settings)
-    branch.not_redone =
-        "the run was made with \"" + event.head.arguments_text() + "\", which the editor has no settings for";
+  branch.not_redone = std::move(event.not_redone);
   s_.timeline.branches.push_back(std::move(branch));
   const auto added = static_cast<unsigned>(s_.timeline.branches.size()) - 1;
   if (alone) {
@@ -81,6 +89,9 @@ void Executor::operator()(TraceOpened& event) {
   } else {
     say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
   }
+  if (!event.unknown_words.empty())
+    say(MessageKind::info, "The editor has no setting for " + listed(event.unknown_words) +
+                               ": branches that leave the run are made without.");
 }
 
 }  // namespace isorelax::model

@@ -6,6 +6,7 @@
 #include "mesh/error.h"
 #include "model/arguments.h"
 #include "model/timeline_jobs.h"
+#include "model/trace_jobs.h"
 
 namespace isorelax::model {
 namespace {

@@ -27,6 +27,8 @@ struct Geometry {
 /// The energy of a geometry under given settings.
 struct EnergyState {
   SmoothingSettings settings;
+  /// It is that of a recorded run, which the settings only come near to.
+  bool of_record = false;
   double total = 0;            ///< sum of E^exponent over the triangles that a run treats
   std::vector<double> values;  ///< E of each triangle; infinite where it has no area
   ValueRange range;

@@ -4,6 +4,7 @@
 
 #include "mesh/error.h"
 #include "trace/position_delta.h"
+#include "trace/trace_parts.h"
 
 namespace isorelax::model {
 namespace {
@@ -16,11 +17,22 @@ constexpr std::size_t kWholeBudget = std::size_t{256} << 20U;
 void Recording::begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start) {
   const TriangleMesh from{{start.begin(), start.end()}, mesh.triangles, {}};
   recorder_ = std::make_unique<TraceRecorder>(std::move(about), from);
+  if (!same_bits(start, mesh.positions)) base_ = encode_delta(start, mesh.positions);
 }
 
-void Recording::take(Trace trace) {
+void Recording::take(Trace trace, ReadAs as) {
   taken_ = std::make_unique<Trace>(std::move(trace));
-  fresh_starts_ = {0};
+  read_as_ = std::move(as);
+}
+
+void Recording::note_fresh_start(double exponent) {
+  std::vector<TracePart>& parts = trace().parts;
+  if (!parts.empty() && parts.back().done == size()) parts.pop_back();  // it made no step
+  TracePart part;
+  part.done = size();
+  part.exponent = exponent;
+  part.base = base_;
+  parts.push_back(std::move(part));
 }
 
 void Recording::add(const StepRecord& record, std::span<const Vec3> positions) {

@@ -9,6 +9,7 @@
 #include "motion/motion_run.h"
 #include "motion/motion_share.h"
 #include "trace/recorder.h"
+#include "trace/redo.h"
 
 namespace isorelax::model {
 
@@ -22,14 +23,24 @@ struct MotionTrack {
   std::optional<MotionShare> share;  ///< made when a vertex is looked at
 };
 
+/// How a run that was read from a file is understood.
+struct ReadAs {
+  std::vector<std::shared_ptr<const RunPlan>> plans;  ///< of each of its parts
+  SmoothingSettings settings;                         ///< the nearest that the editor has
+  bool exact = false;                                 ///< these settings measure the same energy
+};
+
 /// The iterations of one branch, in core/trace's form: positions as deltas, and a few whole ones in between
 /// so that any iteration is near one. Belongs to the worker: no other thread touches what is in it.
 class Recording {
  public:
   /// Begins at these positions; `about` says what the run is.
   void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start);
-  /// A run that was recorded before.
-  void take(Trace trace);
+  /// A run that was recorded before. Precondition: it has parts, as many as `as` has plans, or `as` has none
+  /// because its steps cannot be made again.
+  void take(Trace trace, ReadAs as);
+  /// How the run is understood that was taken; null for one that can grow.
+  [[nodiscard]] const ReadAs* read_as() const { return taken_ ? &read_as_ : nullptr; }
   /// Whether it can go on: not for a run that was read from a file.
   [[nodiscard]] bool can_grow() const { return recorder_ != nullptr; }
   [[nodiscard]] bool has_begun() const { return recorder_ != nullptr || taken_ != nullptr; }
@@ -43,11 +54,11 @@ class Recording {
   /// Positions after so many iterations of the branch. Throws Error for a damaged delta.
   [[nodiscard]] std::vector<Vec3> positions_at(unsigned iteration);
 
-  /// The iterations from which a smoother started that knew nothing of the steps before, ascending.
-  [[nodiscard]] const std::vector<unsigned>& fresh_starts() const { return fresh_starts_; }
+  /// A smoother that knows nothing of the steps before makes the next ones, on the problem of the mesh as
+  /// opened with this exponent: a part of the trace begins.
+  void note_fresh_start(double exponent);
   /// Null for iterations of a smoother.
   std::shared_ptr<MotionTrack> motion;
-  void note_fresh_start() { fresh_starts_.push_back(size()); }
 
  private:
   void keep(unsigned iteration, std::span<const Vec3> positions);
@@ -56,7 +67,8 @@ class Recording {
   std::unique_ptr<Trace> taken_;
   std::map<unsigned, std::vector<Vec3>> whole_;  // iteration -> positions
   unsigned stride_ = 8;                          // between whole ones
-  std::vector<unsigned> fresh_starts_;
+  ReadAs read_as_;
+  std::string base_;  // delta from the start to the mesh as opened; empty where they are the same
 };
 
 /// Full step records of the newest steps, as many as fit into a budget; and states that somebody still holds,

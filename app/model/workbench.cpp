@@ -4,7 +4,9 @@
 
 #include "io/mesh_file.h"
 #include "mesh/error.h"
+#include "model/arguments.h"
 #include "smoothing/baselines.h"
+#include "trace/trace_parts.h"
 
 namespace isorelax::model {
 namespace {
@@ -77,6 +79,11 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, const S
   return isorelax::make_smoother(problem, settings.solver, kAll);
 }
 
+RunPlan plan_of(const SmoothingSettings& settings) {
+  const auto make = [settings](const SmoothingProblem& problem) { return make_smoother(problem, settings); };
+  return {problem_options(settings), make, {}};
+}
+
 Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings) {
   const SmoothingSettings wanted = problem_part(settings);
   const auto found = std::ranges::find_if(
@@ -93,13 +100,60 @@ Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const Smoo
   return problems_.front().problem;
 }
 
+std::vector<std::shared_ptr<const RunPlan>> Workbench::read_plans(const Trace& trace) const {
+  const TriangleMesh mesh{trace.positions, trace.triangles, {}};
+  std::vector<std::shared_ptr<const RunPlan>> plans;
+  for (std::size_t p = 0; p < trace.parts.size(); ++p) {
+    const RunWords& words = words_of(trace, trace.parts[p]);
+    if (p > 0 && words == words_of(trace, trace.parts[p - 1])) {
+      plans.push_back(plans.back());
+      continue;
+    }
+    check_resources(words);
+    plans.push_back(std::make_shared<const RunPlan>(read_words_ ? read_words_(words, mesh)
+                                                                : plan_of(settings_of(words))));
+  }
+  return plans;
+}
+
+Workbench::ProblemPtr Workbench::part_problem(const Recording& recording, std::size_t part) {
+  const auto found = std::ranges::find_if(
+      parts_, [&](const MadePart& made) { return made.recording == &recording && made.part == part; });
+  if (found != parts_.end()) {
+    std::rotate(parts_.begin(), found, std::next(found));
+    return parts_.front().problem;
+  }
+  const Trace& trace = recording.trace();
+  const TracePart& wanted = trace.parts[part];
+  const auto& plans = recording.read_as()->plans;
+  // The stages of a run differ by their exponent alone.
+  const auto sibling = std::ranges::find_if(parts_, [&](const MadePart& made) {
+    if (made.recording != &recording || plans[made.part] != plans[part]) return false;
+    const TracePart& other = trace.parts[made.part];
+    return other.base == wanted.base && other.holds == wanted.holds;
+  });
+  ProblemPtr problem;
+  if (sibling != parts_.end() && trace.parts[sibling->part].exponent == wanted.exponent) {
+    problem = sibling->problem;
+  } else if (sibling != parts_.end()) {
+    auto stage = std::make_shared<SmoothingProblem>(*sibling->problem);
+    stage->exponent = wanted.exponent;
+    problem = std::move(stage);
+  } else {
+    problem = std::make_shared<const SmoothingProblem>(make_part_problem(trace, wanted, *plans[part]));
+  }
+  while (parts_.size() >= kProblemsKept) parts_.pop_back();
+  parts_.push_front({&recording, part, problem});
+  return problem;
+}
+
 Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings,
                               Recording& recording) {
   if (smoother_ && recording_ == &recording && at_ > 0 && at_ == recording.size()) return *smoother_;
   smoother_.reset();
   smoothed_ = problem(document, settings);
   smoother_ = make_smoother(*smoothed_, settings);
-  recording.note_fresh_start();
+  recording.note_fresh_start(smoothed_->exponent);
   recording_ = &recording;
   at_ = recording.size();
   return *smoother_;
@@ -119,6 +173,7 @@ MotionRun& Workbench::motion_run(const std::shared_ptr<MotionTrack>& track) {
 void Workbench::forget() {
   moved_.reset();
   problems_.clear();
+  parts_.clear();
   smoother_.reset();
   smoothed_.reset();
   recording_ = nullptr;

@@ -22,6 +22,15 @@ class Workbench {
   /// The problem for these settings; made anew only when it is none of the last few. Throws Error.
   ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings);
 
+  /// How words are understood that runs were made with; at first as the editor's settings are.
+  void set_plan_reader(PlanReader reader) { read_words_ = std::move(reader); }
+  /// The plans of the parts of a trace, in order. Throws Error where one is not understood, or a file that it
+  /// names is not what it was.
+  [[nodiscard]] std::vector<std::shared_ptr<const RunPlan>> read_plans(const Trace& trace) const;
+  /// The problem of a part of a recording that was read; made anew only when it is none of the last few.
+  /// Throws Error. Precondition: it has plans.
+  ProblemPtr part_problem(const Recording& recording, std::size_t part);
+
   /// A smoother for the next step of a recording: the one that made its last step, or a new one, of which the
   /// recording takes note. Throws Error.
   Smoother& smoother(const DocumentPtr& document, const SmoothingSettings& settings, Recording& recording);
@@ -47,8 +56,15 @@ class Workbench {
     SmoothingSettings settings;
     ProblemPtr problem;
   };
-  std::deque<Made> problems_;  // newest first
-  ProblemPtr smoothed_;        // what the smoother works on
+  struct MadePart {
+    const Recording* recording;
+    std::size_t part;
+    ProblemPtr problem;
+  };
+  std::deque<Made> problems_;   // newest first
+  std::deque<MadePart> parts_;  // newest first
+  PlanReader read_words_;       // none: the editor's settings
+  ProblemPtr smoothed_;         // what the smoother works on
   std::unique_ptr<Smoother> smoother_;
   const Recording* recording_ = nullptr;  // whose last step the smoother made
   unsigned at_ = 0;                       // how many steps that had
@@ -60,6 +76,9 @@ class Workbench {
 /// A smoother on a problem that keeps all detail of its steps. Keeps a reference to the problem.
 [[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem,
                                                       const SmoothingSettings& settings);
+
+/// What a run with these settings is made with. Reads the reference file; throws Error.
+[[nodiscard]] RunPlan plan_of(const SmoothingSettings& settings);
 
 /// The library's options for these settings. Reads the reference file; throws Error.
 [[nodiscard]] ProblemOptions problem_options(const SmoothingSettings& settings);

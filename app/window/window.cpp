@@ -246,7 +246,8 @@ void run_window(const WindowOptions& options) {
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);
   set_icon(window.get());
-  editor::Editor editor([](const char* name) -> render::GlProc { return glfwGetProcAddress(name); });
+  editor::Editor editor([](const char* name) -> render::GlProc { return glfwGetProcAddress(name); },
+                        editor::Motion::animated, options.read_plan);
   model::Session& session = editor.session();
   Host host(window.get(), editor);
   session.engine.set_wake([] { glfwPostEmptyEvent(); });

@@ -1,0 +1,190 @@
+#include "model/trace_jobs.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <utility>
+
+#include "mesh/error.h"
+#include "model/arguments.h"
+#include "trace/position_delta.h"
+#include "trace/trace_file.h"
+#include "trace/trace_parts.h"
+
+namespace isorelax::model {
+namespace {
+
+/// Adds the parts of a recording that made iterations up to `last`, which stand in `whole` after `offset`
+/// others.
+void add_parts(Trace& whole, const Trace& segment, std::size_t last, std::size_t offset) {
+  const bool same_start = same_bits(whole.positions, segment.positions);
+  for (const TracePart& part : segment.parts) {
+    if (part.done >= last) continue;
+    TracePart added = part;
+    added.done += offset;
+    added.words = words_of(segment, part);
+    if (!same_start) added.base = encode_delta(whole.positions, base_of(segment, part));
+    whole.parts.push_back(std::move(added));
+  }
+}
+
+StepSummary recorded_summary(const TraceIteration& step, unsigned iteration, std::size_t vertices) {
+  return {iteration,
+          step.before,
+          step.after,
+          step.limits,
+          step.moved,
+          vertices,
+          step.largest_move,
+          static_cast<unsigned>(step.fold_passes),
+          static_cast<unsigned>(step.energy_passes)};
+}
+
+/// What the timeline shows of a trace, without going through its positions.
+void read_numbers(const Trace& trace, TraceOpened& opened) {
+  if (!trace.iterations.empty())
+    opened.rows.push_back({0, trace.iterations.front().before.energy, trace.quality.min_angle_deg,
+                           trace.quality.max_angle_deg, 0, 0});
+  unsigned k = 0;
+  for (const TraceIteration& step : trace.iterations) {
+    ++k;
+    opened.rows.push_back(
+        {k, step.after.energy, step.quality.min_angle_deg, step.quality.max_angle_deg, step.largest_move, 0});
+    opened.steps.push_back(recorded_summary(step, k, trace.positions.size()));
+  }
+}
+
+DocumentPtr document_of(const Trace& trace, const std::filesystem::path& path) {
+  MeshFile file;
+  file.mesh.positions = trace.positions;
+  file.mesh.triangles = trace.triangles;
+  const std::filesystem::path input = trace.input.empty() ? path : std::filesystem::path(trace.input);
+  return make_document(input, std::move(file));
+}
+
+/// How the trace is understood, with why its steps cannot be made again where it is not. One of which no
+/// parts are known gets the part that its words ask for.
+ReadAs understand(const Workbench& bench, Trace& trace, TraceOpened& opened) {
+  const bool knows_parts = !trace.parts.empty();
+  if (!knows_parts) trace.parts.emplace_back();
+  ReadAs as;
+  try {
+    as.plans = bench.read_plans(trace);
+    if (!knows_parts)
+      trace.parts.front().exponent = as.plans.front()->problem.exponent.value_or(kDefaultExponent);
+  } catch (const Error& error) {
+    opened.not_redone = error.what();
+  }
+  SmoothingSettings nearest = nearest_settings(trace.arguments, {}, opened.unknown_words);
+  if (std::ranges::find(trace.arguments, "--exponent") == trace.arguments.end())
+    nearest.exponent = trace.parts.back().exponent;
+  as.settings = opened.settings = nearest;
+  as.exact = opened.unknown_words.empty() &&
+             std::ranges::none_of(trace.parts, [](const TracePart& part) { return part.words.has_value(); });
+  return as;
+}
+
+}  // namespace
+
+bool is_trace(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, kTraceMagic.size()> letters{};
+  file.read(letters.data(), letters.size());
+  return file && std::string_view(letters.data(), letters.size()) == kTraceMagic;
+}
+
+void walk(const Document* document, std::span<const Place> segments,
+          const std::function<void(const std::vector<Vec3>&, const TraceIteration*)>& visit) {
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const Place& segment = segments[s];
+    if (!segment.recording || !segment.recording->has_begun()) {
+      if (document != nullptr) visit(document->mesh().positions, nullptr);
+      continue;
+    }
+    std::vector<Vec3> positions = segment.recording->positions_at(0);
+    if (s == 0) visit(positions, nullptr);
+    for (unsigned k = 0; k < segment.iteration; ++k) {
+      const TraceIteration& iteration = segment.recording->trace().iterations[k];
+      if (!apply_delta(iteration.delta, positions)) throw Error("the recording is damaged");
+      visit(positions, &iteration);
+    }
+  }
+}
+
+Trace joined(const PathRequest& path) {
+  const auto begun = [](const Place& segment) { return segment.recording && segment.recording->has_begun(); };
+  const auto first = std::ranges::find_if(path.segments, begun);
+  if (first == path.segments.end()) throw Error("there is no run to save yet");
+  Trace whole;
+  const Trace& start = first->recording->trace();
+  if (path.segments.size() == 1 && !first->recording->can_grow()) return start;  // as it was read
+  whole.positions = start.positions;
+  whole.triangles = start.triangles;
+  whole.quality = start.quality;
+  for (const Place& segment : path.segments) {
+    if (!begun(segment)) continue;
+    // Iterations share nothing with the recording's: deltas are copied.
+    const Trace& part = segment.recording->trace();
+    add_parts(whole, part, segment.iteration, whole.iterations.size());
+    whole.iterations.insert(whole.iterations.end(), part.iterations.begin(),
+                            part.iterations.begin() + segment.iteration);
+    static_cast<RunWords&>(whole) = part;
+    whole.program = part.program;
+    whole.input = part.input;
+    whole.stopped = part.stopped;
+    whole.stopped_because = part.stopped_because;
+  }
+  return whole;
+}
+
+Engine::Job save_trace_job(PathRequest path, std::filesystem::path file) {
+  return [path = std::move(path), file = std::move(file)](const JobContext& context) {
+    context.progress("Saving " + file.filename().string(), -1);
+    write_trace(file, joined(path));
+    context.publish(Wrote{file});
+  };
+}
+
+Engine::Job compare_job(PathRequest first, PathRequest second, unsigned first_branch,
+                        unsigned second_branch) {
+  return [first = std::move(first), second = std::move(second), first_branch,
+          second_branch](const JobContext& context) {
+    context.progress("Comparing two runs", -1);
+    context.publish(Compared{first_branch, second_branch, compare_traces(joined(first), joined(second))});
+  };
+}
+
+Engine::Job open_trace_job(std::filesystem::path path, DocumentPtr document) {
+  return [path = std::move(path), document = std::move(document)](const JobContext& context) {
+    context.progress("Opening " + path.filename().string(), -1);
+    Trace trace = read_trace(path);
+    TraceOpened opened;
+    opened.path = path;
+    if (document && document->mesh().triangles != trace.triangles)
+      throw MeshError(path.string() + ": the run is of another mesh than the open one");
+    read_numbers(trace, opened);
+    opened.head.program = trace.program;
+    opened.head.stopped_because = trace.stopped_because;
+    ReadAs as = understand(context.bench(), trace, opened);
+    if (!document) {
+      context.bench().forget();
+      opened.document = document_of(trace, path);
+    }
+    opened.recording = std::make_shared<Recording>();
+    opened.recording->take(std::move(trace), std::move(as));
+    if (!document) {
+      auto state = std::make_shared<MeshState>();
+      state->geometry = measure_geometry(*opened.document, opened.document->mesh().positions);
+      try {
+        state->energy = energy_at(context.bench(), opened.document, opened.settings,
+                                  {opened.recording, 0, {}}, state->positions());
+      } catch (const Error&) {  // it can still be looked at
+        state->energy.reset();
+      }
+      opened.state = std::move(state);
+    }
+    context.publish(std::move(opened));
+  };
+}
+
+}  // namespace isorelax::model
