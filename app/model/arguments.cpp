@@ -106,7 +106,7 @@ bool read_pins(const std::string& word, SmoothingSettings& s) {
     at = comma + 1;
   }
   std::ranges::sort(s.pinned);
-  s.pinned.erase(std::ranges::unique(s.pinned).begin(), s.pinned.end());
+  s.pinned.erase(std::unique(s.pinned.begin(), s.pinned.end()), s.pinned.end());
   return true;
 }
 

@@ -144,6 +144,7 @@ struct Inspected {
   std::shared_ptr<const std::vector<Vec3>> before;
   MeshStatePtr before_state;
   std::string mismatch;
+  std::string made_with;  ///< part_text, where the run that was read has more to say than its words
   std::optional<VertexExplanation> vertex;
   std::optional<TriangleExplanation> triangle;
   std::optional<GradientCheck> check;

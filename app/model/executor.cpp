@@ -113,7 +113,7 @@ void Executor::start_run(unsigned iterations) {
   if (refuses_to_smooth() || run_over_recorded(iterations)) return;
   forget_motion_energy();
   prepare_run(iterations);
-  begin_branch();
+  const Place left = begin_branch();
   // A new series starts where this one will: the plots need its first point.
   if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
     const QualityReport& q = s_.current->quality();
@@ -121,8 +121,8 @@ void Executor::start_run(unsigned iterations) {
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
   }
   s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series,
-                                 s_.timeline.current()->recording, s_.timeline.cursor.branch, s_.breakpoints,
-                                 s_.step_budget}));
+                                 s_.timeline.current()->recording, left, s_.timeline.cursor.branch,
+                                 s_.breakpoints, s_.step_budget}));
 }
 
 // A smoother keeps to the mesh as opened; a surface that has moved is another one.

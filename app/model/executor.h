@@ -87,7 +87,7 @@ class Executor {
   bool wait_for_run(std::function<void(Session&)> then);
   void go_on_when_idle();
   bool run_over_recorded(unsigned iterations);
-  void begin_branch();
+  Place begin_branch();
   void drop_empty_branch();
   void seek(unsigned branch, unsigned iteration);
   void ask_about_step();

@@ -130,8 +130,9 @@ bool Executor::move_over_recorded(unsigned steps) {
     s_.broken_by.clear();
     std::vector<double> times;
     for (const MotionEntry& moment : branch.moments) times.push_back(moment.time);
-    s_.engine.post("run", motion_scan_job({branch.recording, at, branch.start, from, to, std::move(times),
-                                           s_.breakpoints}));
+    s_.engine.post(
+        "run",
+        motion_scan_job({branch.recording, branch.start, std::move(times), {at, from, to, s_.breakpoints}}));
     s_.after_scan_ = std::move(then);
     s_.scan_to_ = to;
     return true;

@@ -79,8 +79,10 @@ bool Executor::run_over_recorded(unsigned iterations) {
   if (any_active(s_.breakpoints)) {
     s_.activity = Activity::running;
     s_.broken_by.clear();
-    s_.engine.post("run", scan_job({s_.document, branch.settings, branch.recording, at, branch.start, from,
-                                    to, s_.breakpoints}));
+    s_.engine.post(
+        "run",
+        scan_job(
+            {s_.document, branch.settings, branch.recording, branch.start, {at, from, to, s_.breakpoints}}));
     s_.after_scan_ = nullptr;
     if (rest > 0 && !ended) s_.after_scan_ = [rest](Session& s) { Executor(s).start_run(rest); };
     s_.scan_to_ = to;
@@ -109,9 +111,10 @@ void Executor::operator()(Scanned& event) {
 }
 
 // Runs go on with the present branch at its end; everywhere else, or with other settings, they begin one.
-void Executor::begin_branch() {
+// Tells where that leaves another.
+Place Executor::begin_branch() {
   Timeline& timeline = s_.timeline;
-  if (s_.continues_branch()) return;
+  if (s_.continues_branch()) return {};
   Branch branch;
   branch.settings = s_.smoothing;
   branch.start = timeline.cursor.iteration;
@@ -126,7 +129,9 @@ void Executor::begin_branch() {
   }
   std::erase_if(s_.history, [&](const IterationRow& row) { return row.iteration > branch.start; });
   timeline.cursor.branch = static_cast<unsigned>(timeline.branches.size());
+  const Place left = branch.parent ? place_of(*branch.parent, branch.start) : Place();
   timeline.branches.push_back(std::move(branch));
+  return left;
 }
 
 /// The branch that holds the shown iteration, where a moving surface begins the one that led to it.
@@ -278,8 +283,9 @@ void Executor::operator()(Inspected& event) {
   s_.step_memory = event.memory;
   if (event.number != s_.inspect_number_ || s_.seeking_) return;
   Inspection& inspection = s_.inspection;
-  inspection.step = StepView{s_.timeline.cursor, std::move(event.record), std::move(event.before),
-                             std::move(event.before_state), std::move(event.mismatch)};
+  inspection.step = StepView{s_.timeline.cursor,        std::move(event.record),
+                             std::move(event.before),   std::move(event.before_state),
+                             std::move(event.mismatch), std::move(event.made_with)};
   inspection.vertex = std::move(event.vertex);
   inspection.triangle = std::move(event.triangle);
   inspection.check = event.check;

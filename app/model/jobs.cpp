@@ -101,10 +101,11 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   context.progress("Preparing", -1);
   Workbench& bench = context.bench();
   bench.steps().set_budget(request.step_budget);
-  const Workbench::ProblemPtr problem = bench.problem(request.document, request.settings);
   if (!request.recording->has_begun())
     request.recording->begin(about(*request.document, request.settings), request.document->mesh(),
-                             request.start->positions());
+                             request.start->positions(), base_at(*request.document, request.left));
+  const Workbench::ProblemPtr problem =
+      bench.problem(request.document, request.settings, request.recording->base());
   Smoother& smoother = bench.smoother(request.document, request.settings, *request.recording);
   if (context.cancelled()) {
     RunResult cancelled;

@@ -2,8 +2,7 @@
 
 #include <filesystem>
 
-#include "model/engine.h"
-#include "model/recording.h"
+#include "model/redo.h"
 
 namespace isorelax::model {
 
@@ -25,6 +24,7 @@ struct RunRequest {
   unsigned series = 0;  ///< for the rows
   /// What is recorded into; a new one begins at the start.
   std::shared_ptr<Recording> recording;
+  Place left;  ///< where a new one leaves another
   unsigned branch = 0;
   std::vector<Breakpoint> breakpoints;
   std::size_t step_budget = StepStore::kDefaultBudget;  ///< bytes of full step records

@@ -38,10 +38,6 @@ void unite(ValueRange& range, const ValueRange& other) {
   range = {std::min(range.low, other.low), std::max(range.high, other.high)};
 }
 
-bool holds_at(const Breakpoint& point, const Moment& moment) {
-  return point.enabled && point.predicate && point.predicate->holds(moment);
-}
-
 /// Takes a moving surface step by step, records every state, and publishes measured ones as the view asks.
 class MotionReporter {
  public:
@@ -117,19 +113,16 @@ class MotionReporter {
 
   void look_at_breakpoints(const StepRecord& record) {
     const Trace& trace = recording_.trace();
-    for (const Breakpoint& point : request_.breakpoints) {
-      const Moment now{.iteration = iteration(),
-                       .numbers = trace.iterations.back(),
-                       .record = record,
-                       .positions = run_.surface().state().positions,
-                       .triangles = trace.triangles,
-                       .inverted_at_start = trace.quality.inverted,
-                       .stop = run_.done(),
-                       .time = run_.surface().state().time};
-      if (!holds_at(point, now)) continue;
-      found_.hits.push_back({request_.branch, iteration(), point.text, point.action});
-      if (point.action == BreakAction::stop && broken_by_.empty()) broken_by_ = point.text;
-    }
+    const Moment now{.iteration = iteration(),
+                     .numbers = trace.iterations.back(),
+                     .record = record,
+                     .positions = run_.surface().state().positions,
+                     .triangles = trace.triangles,
+                     .inverted_at_start = trace.quality.inverted,
+                     .stop = run_.done(),
+                     .time = run_.surface().state().time};
+    const Breakpoint* stops = note_hits(request_.breakpoints, now, request_.branch, found_.hits);
+    if (stops != nullptr && broken_by_.empty()) broken_by_ = stops->text;
   }
 
   void publish() {
@@ -306,34 +299,20 @@ Engine::Job motion_follow_job(MotionFollowRequest request) {
 
 Engine::Job motion_scan_job(MotionScanRequest request) {
   return [request = std::move(request)](const JobContext& context) {
-    try {
-      const Trace& trace = request.recording->trace();
-      Scanned scanned;
-      for (unsigned k = request.from + 1; k <= request.to && !scanned.stop && !context.cancelled(); ++k) {
-        context.progress("Looking at step " + std::to_string(k), -1);
-        const unsigned own = k - request.first;
-        const std::vector<Vec3> after = request.recording->positions_at(own);
-        const StepRecord record = record_of_motion(request.recording->positions_at(own - 1), after);
-        const Moment now{.iteration = k,
-                         .numbers = trace.iterations[own - 1],
-                         .record = record,
-                         .positions = after,
-                         .triangles = trace.triangles,
-                         .inverted_at_start = trace.quality.inverted,
-                         .time = request.times[own]};
-        for (const Breakpoint& point : request.breakpoints) {
-          if (!holds_at(point, now)) continue;
-          scanned.hits.push_back({request.branch, k, point.text, point.action});
-          if (point.action != BreakAction::stop || scanned.stop) continue;
-          scanned.stop = k;
-          scanned.broken_by = point.text;
-        }
-      }
-      if (context.cancelled() && !scanned.stop) scanned.stop = request.from;
-      context.publish(std::move(scanned));
-    } catch (const Error& error) {
-      context.publish(RunFailed{error.what()});
-    }
+    const Trace& trace = request.recording->trace();
+    scan(context, request.range, [&](unsigned k, const ShowMoment& show) {
+      const unsigned own = k - request.first;
+      const std::vector<Vec3> after = request.recording->positions_at(own);
+      const StepRecord record = record_of_motion(request.recording->positions_at(own - 1), after);
+      show({.iteration = k,
+            .numbers = trace.iterations[own - 1],
+            .record = record,
+            .positions = after,
+            .triangles = trace.triangles,
+            .inverted_at_start = trace.quality.inverted,
+            .stop = false,
+            .time = request.times[own]});
+    });
   };
 }
 

@@ -46,11 +46,9 @@ struct MotionFollowRequest {
 
 struct MotionScanRequest {
   std::shared_ptr<Recording> recording;
-  unsigned branch = 0;
   unsigned first = 0;         ///< the iteration of the timeline at which the motion begins
-  unsigned from = 0, to = 0;  ///< on the timeline: from + 1 to `to` are looked at
   std::vector<double> times;  ///< of the recording's states
-  std::vector<Breakpoint> breakpoints;
+  ScanRange range;
 };
 /// Looks whether breakpoints hold at recorded steps: Scanned or RunFailed.
 [[nodiscard]] Engine::Job motion_scan_job(MotionScanRequest request);

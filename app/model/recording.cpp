@@ -14,10 +14,12 @@ constexpr std::size_t kWholeBudget = std::size_t{256} << 20U;
 
 }  // namespace
 
-void Recording::begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start) {
+void Recording::begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start, BasePtr base) {
+  const std::vector<Vec3>& made_from = base ? *base : mesh.positions;
   const TriangleMesh from{{start.begin(), start.end()}, mesh.triangles, {}};
   recorder_ = std::make_unique<TraceRecorder>(std::move(about), from);
-  if (!same_bits(start, mesh.positions)) base_ = encode_delta(start, mesh.positions);
+  if (!same_bits(start, made_from)) to_base_ = encode_delta(start, made_from);
+  base_ = std::move(base);
 }
 
 void Recording::take(Trace trace, ReadAs as) {
@@ -31,7 +33,7 @@ void Recording::note_fresh_start(double exponent) {
   TracePart part;
   part.done = size();
   part.exponent = exponent;
-  part.base = base_;
+  part.base = to_base_;
   parts.push_back(std::move(part));
 }
 

@@ -23,6 +23,9 @@ struct MotionTrack {
   std::optional<MotionShare> share;  ///< made when a vertex is looked at
 };
 
+/// Positions that a problem is made from; null: those of the open document.
+using BasePtr = std::shared_ptr<const std::vector<Vec3>>;
+
 /// How a run that was read from a file is understood.
 struct ReadAs {
   std::vector<std::shared_ptr<const RunPlan>> plans;  ///< of each of its parts
@@ -34,8 +37,9 @@ struct ReadAs {
 /// so that any iteration is near one. Belongs to the worker: no other thread touches what is in it.
 class Recording {
  public:
-  /// Begins at these positions; `about` says what the run is.
-  void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start);
+  /// Begins at these positions of the document's mesh; `about` says what the run is. Its problem is made from
+  /// `base`.
+  void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start, BasePtr base = {});
   /// A run that was recorded before. Precondition: it has parts, as many as `as` has plans, or `as` has none
   /// because its steps cannot be made again.
   void take(Trace trace, ReadAs as);
@@ -51,11 +55,14 @@ class Recording {
   [[nodiscard]] Trace& trace() { return recorder_ ? recorder_->trace() : *taken_; }
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(trace().iterations.size()); }
 
+  /// What the problem of a run that can grow is made from.
+  [[nodiscard]] const BasePtr& base() const { return base_; }
+
   /// Positions after so many iterations of the branch. Throws Error for a damaged delta.
   [[nodiscard]] std::vector<Vec3> positions_at(unsigned iteration);
 
-  /// A smoother that knows nothing of the steps before makes the next ones, on the problem of the mesh as
-  /// opened with this exponent: a part of the trace begins.
+  /// A smoother that knows nothing of the steps before makes the next ones, with this exponent: a part of the
+  /// trace begins.
   void note_fresh_start(double exponent);
   /// Null for iterations of a smoother.
   std::shared_ptr<MotionTrack> motion;
@@ -68,7 +75,9 @@ class Recording {
   std::map<unsigned, std::vector<Vec3>> whole_;  // iteration -> positions
   unsigned stride_ = 8;                          // between whole ones
   ReadAs read_as_;
-  std::string base_;  // delta from the start to the mesh as opened; empty where they are the same
+  BasePtr base_;
+  std::string
+      to_base_;  // delta from the start to what the problem is made from; empty where they are the same
 };
 
 /// Full step records of the newest steps, as many as fit into a budget; and states that somebody still holds,

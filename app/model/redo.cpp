@@ -70,6 +70,17 @@ std::vector<Vec3> positions_of(const Document& document, const Place& place) {
                                                          : document.mesh().positions;
 }
 
+BasePtr base_at(const Document& document, const Place& place) {
+  if (!place.recording || !place.recording->has_begun()) return {};
+  if (place.recording->can_grow()) return place.recording->base();
+  // The start itself is not untangled yet.
+  const TracePart* part = part_of(place.recording->trace(), place.iteration);
+  if (part == nullptr) return {};
+  std::vector<Vec3> base = base_of(place.recording->trace(), *part);
+  if (same_bits(base, document.mesh().positions)) return {};
+  return std::make_shared<const std::vector<Vec3>>(std::move(base));
+}
+
 StepMaking making_of(Workbench& bench, const DocumentPtr& document, const SmoothingSettings& settings,
                      const Place& place) {
   const Recording* recording = place.recording.get();
@@ -86,10 +97,11 @@ StepMaking making_of(Workbench& bench, const DocumentPtr& document, const Smooth
       return make_part_smoother(*problem, *part, *plan);
     };
     making.from_base = part->from_base;
+    making.part = part;
     return making;
   }
-  making.problem = bench.problem(document, settings);
-  making.features = problem_options(settings).features;
+  making.problem = bench.problem(document, settings, recording != nullptr ? recording->base() : BasePtr());
+  making.features = feature_options(settings);
   making.smoother = [problem = making.problem, settings] { return make_smoother(*problem, settings); };
   return making;
 }
@@ -126,7 +138,9 @@ std::shared_ptr<const EnergyState> energy_at(Workbench& bench, const DocumentPtr
                                              const SmoothingSettings& settings, const Place& place,
                                              std::span<const Vec3> positions) {
   if (!follows_parts(place.recording.get()) || !same_energy(place.recording->read_as()->settings, settings))
-    return measure_energy(*bench.problem(document, settings), settings, positions);
+    return measure_energy(
+        *bench.problem(document, settings, place.recording ? place.recording->base() : BasePtr()), settings,
+        positions);
   const Trace& trace = place.recording->trace();
   // The part that led there; to the start none did.
   const TracePart* part = part_of(trace, std::max(1U, place.iteration));

@@ -14,13 +14,17 @@ struct Place {
 /// The positions there.
 [[nodiscard]] std::vector<Vec3> positions_of(const Document& document, const Place& place);
 
+/// What a problem is made from that goes on from a place: what the steps there were made from.
+[[nodiscard]] BasePtr base_at(const Document& document, const Place& place);
+
 /// What the step to a recorded iteration is made with.
 struct StepMaking {
   Workbench::ProblemPtr problem;
   FeatureOptions features;
   /// One that keeps all detail and knows of no step before. Keeps a reference to the problem.
   std::function<std::unique_ptr<Smoother>()> smoother;
-  unsigned from = 0;       ///< iteration after which such a one made the steps
+  const TracePart* part = nullptr;  ///< of a run that was read
+  unsigned from = 0;                ///< iteration after which such a one made the steps
   bool from_base = false;  ///< ... from the positions that the problem is made from, not from those there
 };
 

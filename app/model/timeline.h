@@ -106,6 +106,8 @@ struct StepView {
   std::shared_ptr<const std::vector<Vec3>> before;
   MeshStatePtr before_state;  ///< the same, measured; null where nobody looks inside the step
   std::string mismatch;  ///< why it is not to be trusted: recomputing it led elsewhere. Empty: it did not.
+  /// The part of the run that it belongs to, where there is more to say of it than the settings do.
+  std::string made_with;
 };
 
 /// A vertex over the iterations of a branch.

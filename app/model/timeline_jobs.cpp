@@ -5,6 +5,7 @@
 
 #include "mesh/error.h"
 #include "model/trace_jobs.h"
+#include "trace/trace_parts.h"
 
 namespace isorelax::model {
 namespace {
@@ -74,6 +75,9 @@ Engine::Job inspect_job(InspectRequest request) {
     Inspected inspected;
     inspected.number = request.number;
     inspected.mismatch = std::move(found.mismatch);
+    if (making.part != nullptr &&
+        (request.place.recording->trace().parts.size() > 1 || says_more_than_words(*making.part)))
+      inspected.made_with = part_text(*making.part);
     if (request.vertex)
       inspected.vertex =
           explain_vertex(problem, making.features, found.before, *found.record, *request.vertex);
@@ -91,37 +95,21 @@ Engine::Job inspect_job(InspectRequest request) {
 
 Engine::Job scan_job(ScanRequest request) {
   return [request = std::move(request)](const JobContext& context) {
-    try {
-      const Trace& trace = request.recording->trace();
-      Scanned scanned;
-      for (unsigned k = request.from + 1; k <= request.to && !scanned.stop && !context.cancelled(); ++k) {
-        context.progress("Looking at iteration " + std::to_string(k), -1);
-        const Place place{request.recording, k - request.start, {}};
-        const FoundStep step =
-            find_step(context, request.document,
-                      making_of(context.bench(), request.document, request.settings, place), place);
-        const std::vector<Vec3> after = request.recording->positions_at(place.iteration);
-        const Moment now{.iteration = k,
-                         .numbers = trace.iterations[place.iteration - 1],
-                         .record = *step.record,
-                         .positions = after,
-                         .triangles = trace.triangles,
-                         .inverted_at_start = trace.quality.inverted,
-                         .stop = false};
-        for (const Breakpoint& point : request.breakpoints) {
-          if (!point.enabled || !point.predicate || !point.predicate->holds(now)) continue;
-          scanned.hits.push_back({request.branch, k, point.text, point.action});
-          if (point.action == BreakAction::stop && !scanned.stop) {
-            scanned.stop = k;
-            scanned.broken_by = point.text;
-          }
-        }
-      }
-      if (context.cancelled() && !scanned.stop) scanned.stop = request.from;
-      context.publish(std::move(scanned));
-    } catch (const Error& error) {
-      context.publish(RunFailed{error.what()});
-    }
+    const Trace& trace = request.recording->trace();
+    scan(context, request.range, [&](unsigned k, const ShowMoment& show) {
+      const Place place{request.recording, k - request.start, {}};
+      const FoundStep step =
+          find_step(context, request.document,
+                    making_of(context.bench(), request.document, request.settings, place), place);
+      const std::vector<Vec3> after = request.recording->positions_at(place.iteration);
+      show({.iteration = k,
+            .numbers = trace.iterations[place.iteration - 1],
+            .record = *step.record,
+            .positions = after,
+            .triangles = trace.triangles,
+            .inverted_at_start = trace.quality.inverted,
+            .stop = false});
+    });
   };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/redo.h"
+#include "model/scan.h"
 #include "model/timeline.h"
 
 namespace isorelax::model {
@@ -32,10 +33,8 @@ struct ScanRequest {
   DocumentPtr document;
   SmoothingSettings settings;
   std::shared_ptr<Recording> recording;
-  unsigned branch = 0;
-  unsigned start = 0;         ///< of the branch, on the timeline
-  unsigned from = 0, to = 0;  ///< on the timeline: from + 1 to `to` are looked at
-  std::vector<Breakpoint> breakpoints;
+  unsigned start = 0;  ///< of the branch, on the timeline
+  ScanRange range;
 };
 /// Looks whether breakpoints hold at recorded iterations: Scanned or RunFailed.
 [[nodiscard]] Engine::Job scan_job(ScanRequest request);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -62,6 +63,14 @@ DocumentPtr document_of(const Trace& trace, const std::filesystem::path& path) {
   return make_document(input, std::move(file));
 }
 
+/// Whether run_bounded makes the steps of this mesh at another size.
+bool is_of_extreme_size(const Trace& trace) {
+  constexpr int kLargestExponent = 100;
+  double largest = 0;
+  for (const Vec3& p : trace.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return largest > 0 && std::abs(std::ilogb(largest)) > kLargestExponent;
+}
+
 /// How the trace is understood, with why its steps cannot be made again where it is not. One of which no
 /// parts are known gets the part that its words ask for.
 ReadAs understand(const Workbench& bench, Trace& trace, TraceOpened& opened) {
@@ -75,6 +84,8 @@ ReadAs understand(const Workbench& bench, Trace& trace, TraceOpened& opened) {
   } catch (const Error& error) {
     opened.not_redone = error.what();
   }
+  if (opened.not_redone.empty() && !trace.parts.front().words && is_of_extreme_size(trace))
+    opened.not_redone = "the mesh is of extreme size, its steps were made at a size near one";
   SmoothingSettings nearest = nearest_settings(trace.arguments, {}, opened.unknown_words);
   if (std::ranges::find(trace.arguments, "--exponent") == trace.arguments.end())
     nearest.exponent = trace.parts.back().exponent;

@@ -40,6 +40,20 @@ ReferenceChoice reference_choice(const SmoothingSettings& settings) {
 
 }  // namespace
 
+FeatureOptions feature_options(const SmoothingSettings& settings) {
+  FeatureOptions options;
+  switch (settings.features) {
+    case FeatureRule::automatic:
+      break;
+    case FeatureRule::none:
+      return FeatureOptions::none();
+    case FeatureRule::angle:
+      options.ridge_angle_deg = settings.feature_deg;
+      break;
+  }
+  return options;
+}
+
 ProblemOptions problem_options(const SmoothingSettings& settings) {
   ProblemOptions options;
   options.weights = EnergyWeights::from_mu(settings.mu_a);
@@ -47,16 +61,7 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
   options.reference = reference_choice(settings);
   options.boundary = settings.boundary;
   options.pinned = settings.pinned;
-  switch (settings.features) {
-    case FeatureRule::automatic:
-      break;
-    case FeatureRule::none:
-      options.features = FeatureOptions::none();
-      break;
-    case FeatureRule::angle:
-      options.features.ridge_angle_deg = settings.feature_deg;
-      break;
-  }
+  options.features = feature_options(settings);
   return options;
 }
 
@@ -84,18 +89,20 @@ RunPlan plan_of(const SmoothingSettings& settings) {
   return {problem_options(settings), make, {}};
 }
 
-Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings) {
+Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings,
+                                         const BasePtr& base) {
   const SmoothingSettings wanted = problem_part(settings);
-  const auto found = std::ranges::find_if(
-      problems_, [&](const Made& made) { return made.document == document && made.settings == wanted; });
+  const auto found = std::ranges::find_if(problems_, [&](const Made& made) {
+    return made.document == document && made.settings == wanted && made.base == base;
+  });
   if (found != problems_.end()) {
     std::rotate(problems_.begin(), found, std::next(found));
   } else {
     while (problems_.size() >= kProblemsKept) problems_.pop_back();
     const TriangleMesh& mesh = document->mesh();
-    problems_.push_front({document, wanted,
-                          std::make_shared<const SmoothingProblem>(
-                              make_problem(mesh.positions, mesh.triangles, problem_options(settings)))});
+    problems_.push_front({document, wanted, base,
+                          std::make_shared<const SmoothingProblem>(make_problem(
+                              base ? *base : mesh.positions, mesh.triangles, problem_options(settings)))});
   }
   return problems_.front().problem;
 }
@@ -151,7 +158,7 @@ Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettin
                               Recording& recording) {
   if (smoother_ && recording_ == &recording && at_ > 0 && at_ == recording.size()) return *smoother_;
   smoother_.reset();
-  smoothed_ = problem(document, settings);
+  smoothed_ = problem(document, settings, recording.base());
   smoother_ = make_smoother(*smoothed_, settings);
   recording.note_fresh_start(smoothed_->exponent);
   recording_ = &recording;

@@ -13,14 +13,15 @@ namespace isorelax::model {
 /// What the worker keeps between jobs: the frozen problems of the open document, the smoother of the last
 /// run, the full records of steps. Belongs to the worker.
 ///
-/// The problem is always made from the mesh as it was opened, so that a run that was paused and continued
-/// goes where one long run goes.
+/// The problem is made from the mesh as it was opened, or as a run that was read began from it, and never
+/// from where a run stands, so that one that was paused and continued goes where one long run goes.
 class Workbench {
  public:
   using ProblemPtr = std::shared_ptr<const SmoothingProblem>;
 
   /// The problem for these settings; made anew only when it is none of the last few. Throws Error.
-  ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings);
+  ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings,
+                     const BasePtr& base = {});
 
   /// How words are understood that runs were made with; at first as the editor's settings are.
   void set_plan_reader(PlanReader reader) { read_words_ = std::move(reader); }
@@ -54,6 +55,7 @@ class Workbench {
   struct Made {
     DocumentPtr document;
     SmoothingSettings settings;
+    BasePtr base;
     ProblemPtr problem;
   };
   struct MadePart {
@@ -79,6 +81,9 @@ class Workbench {
 
 /// What a run with these settings is made with. Reads the reference file; throws Error.
 [[nodiscard]] RunPlan plan_of(const SmoothingSettings& settings);
+
+/// Which creases these settings keep.
+[[nodiscard]] FeatureOptions feature_options(const SmoothingSettings& settings);
 
 /// The library's options for these settings. Reads the reference file; throws Error.
 [[nodiscard]] ProblemOptions problem_options(const SmoothingSettings& settings);

@@ -140,6 +140,8 @@ void draw_inspector(const Ui& ui) {
     wrapped(ui.fonts.text, color::kWarning, "Steps cannot be looked into: " + branch->not_redone + ".");
   if (const auto& step = s.inspection.step; step && !step->mismatch.empty())
     wrapped(ui.fonts.text, color::kWarning, step->mismatch);
+  if (const auto& step = s.inspection.step; step && !step->made_with.empty())
+    wrapped(ui.fonts.small, color::kTextDim, "Part of the run " + step->made_with + ".");
   if (s.moving() != nullptr && s.selected_vertex) {
     draw_moving_vertex(ui);
   } else if (s.moving() != nullptr && s.selected_triangle) {

@@ -48,6 +48,10 @@ std::string part_text(const TracePart& part) {
   return text;
 }
 
+bool says_more_than_words(const TracePart& part) {
+  return part.from_base || !part.holds.still.empty() || !part.holds.near.empty();
+}
+
 bool same_bits(std::span<const Vec3> first, std::span<const Vec3> second) {
   return first.size() == second.size() && std::memcmp(first.data(), second.data(), first.size_bytes()) == 0;
 }

@@ -23,7 +23,7 @@ class TraceDebugger : public ::testing::Test {
   }
   /// Smooths with these words, and records it.
   [[nodiscard]] std::string record(const std::string& in, const std::string& words) const {
-    const std::string trace = workspace.path("run.trace");
+    std::string trace = workspace.path("run.trace");
     const test::Outcome outcome = test::run_program(
         "smooth " + in + " --quiet -o " + workspace.path("o.off") + " --trace " + trace + " " + words);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -51,6 +51,15 @@ class TraceDebugger : public ::testing::Test {
       EXPECT_EQ(session.inspection.vertex->after, session.current->positions()[40]) << k;
       EXPECT_EQ(session.inspection.check->wrong, 0U) << k;
     }
+  }
+  /// Runs on from here as a branch.
+  void continue_with(double mu, unsigned iterations) {
+    model::SmoothingSettings settings = session.smoothing;
+    settings.mu_a = mu;
+    settings.tolerance = 0;
+    settings.iterations = iterations;
+    act(model::SetSmoothing{settings, "mu"});
+    act(model::Run{});
   }
   void open_and_look(const std::string& trace) {
     act(model::OpenFile{trace});
@@ -101,6 +110,17 @@ TEST_F(TraceDebugger, LooksIntoTheStepsAfterUntangling) {
   act(model::SetStage{});
   act(model::Seek{0, {}});
   EXPECT_GT(session.current->quality().inverted, 0U) << "the start is the mesh as it was";
+  EXPECT_NE(session.inspection.step->made_with.find("untangled first"), std::string::npos);
+  // A branch goes on with the surface that untangling made.
+  act(model::Seek{3, {}});
+  continue_with(0.5, 3);
+  const std::string saved = workspace.path("branch.trace");
+  act(model::SaveTrace{saved});
+  EXPECT_EQ(test::run_program("trace replay " + saved).status, 0);
+  open_and_look(saved);
+  ASSERT_EQ(trace().parts.size(), 2U);
+  EXPECT_EQ(trace().parts[0].base, trace().parts[1].base);
+  EXPECT_FALSE(trace().parts[1].from_base);
 }
 
 TEST_F(TraceDebugger, LooksIntoStepsOfARunThatHeldVertices) {
@@ -124,12 +144,7 @@ TEST_F(TraceDebugger, ABranchSavedIsReplayedAndLookedIntoPartByPart) {
   open_and_look(record(make(ShapeKind::random_square, kSmall), "--weights 1,1 --iterations 4"));
   for (const double mu : {0.5, 0.8}) {  // a branch of a branch
     act(model::Seek{session.timeline.last() - 1, {}});
-    model::SmoothingSettings settings = session.smoothing;
-    settings.mu_a = mu;
-    settings.tolerance = 0;
-    settings.iterations = 3;
-    act(model::SetSmoothing{settings, "mu"});
-    act(model::Run{});
+    continue_with(mu, 3);
   }
   act(model::Step{});  // goes on afresh
   EXPECT_EQ(session.timeline.last(), 9U);
