@@ -115,7 +115,8 @@ void Executor::start_run(unsigned iterations) {
   prepare_run(iterations);
   const Place left = begin_branch();
   // A new series starts where this one will: the plots need its first point.
-  if (s_.current->energy && (s_.history.empty() || s_.history.back().series != s_.series)) {
+  if (s_.current->energy && !s_.current->energy->of_record &&
+      (s_.history.empty() || s_.history.back().series != s_.series)) {
     const QualityReport& q = s_.current->quality();
     s_.history.push_back(
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});

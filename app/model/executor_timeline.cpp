@@ -121,6 +121,7 @@ Place Executor::begin_branch() {
   branch.parent = branch_shown_at_start();
   branch.name = branch_name(s_.smoothing, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
   branch.recording = std::make_shared<Recording>();
+  if (s_.current->energy && s_.current->energy->of_record) ++s_.series;  // these settings measure another one
   if (s_.current->energy && !s_.current->energy->of_record &&
       same_energy(s_.current->energy->settings, s_.smoothing)) {
     const QualityReport& q = s_.current->quality();

@@ -69,6 +69,7 @@ void Executor::operator()(TraceOpened& event) {
     s_.smoothing.pinned = event.settings.pinned;  // of this document, not of the one before
     s_.recent.erase(s_.recent.begin());           // the mesh in it may be in no file
     remember_recent(event.path);
+    if (!event.rows.empty()) s_.series = event.rows.back().series;
   }
   Branch branch;
   branch.name = event.path.filename().string();

@@ -41,16 +41,30 @@ StepSummary recorded_summary(const TraceIteration& step, unsigned iteration, std
           static_cast<unsigned>(step.energy_passes)};
 }
 
+/// Whether the energy gets another meaning with the step to this iteration.
+bool measures_anew(const Trace& trace, unsigned iteration) {
+  const TracePart* part = part_of(trace, iteration);
+  if (part == nullptr || part->done == 0 || part->done + 1 != iteration) return false;
+  const TracePart* before = std::prev(part);
+  return part->exponent != before->exponent || words_of(trace, *part) != words_of(trace, *before);
+}
+
 /// What the timeline shows of a trace, without going through its positions.
 void read_numbers(const Trace& trace, TraceOpened& opened) {
   if (!trace.iterations.empty())
     opened.rows.push_back({0, trace.iterations.front().before.energy, trace.quality.min_angle_deg,
                            trace.quality.max_angle_deg, 0, 0});
   unsigned k = 0;
+  unsigned series = 0;
   for (const TraceIteration& step : trace.iterations) {
     ++k;
-    opened.rows.push_back(
-        {k, step.after.energy, step.quality.min_angle_deg, step.quality.max_angle_deg, step.largest_move, 0});
+    if (measures_anew(trace, k)) {  // the iteration before has an energy of each kind
+      opened.rows.push_back(opened.rows.back());
+      opened.rows.back().energy = step.before.energy;
+      opened.rows.back().series = ++series;
+    }
+    opened.rows.push_back({k, step.after.energy, step.quality.min_angle_deg, step.quality.max_angle_deg,
+                           step.largest_move, series});
     opened.steps.push_back(recorded_summary(step, k, trace.positions.size()));
   }
 }

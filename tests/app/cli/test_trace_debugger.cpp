@@ -96,6 +96,8 @@ TEST_F(TraceDebugger, LooksIntoStepsOfAllExponentsThatARunGoesThrough) {
   const std::string square = make(ShapeKind::random_square, kSmall);
   open_and_look(record(square, "--exponent 8 --tolerance 0.01 --iterations 40"));
   EXPECT_EQ(trace().parts.size(), 3U);
+  EXPECT_EQ(session.history.back().series, 2U) << "every exponent has a curve of its own";
+  EXPECT_EQ(session.history.size(), 1U + session.timeline.last() + 2);
 }
 
 TEST_F(TraceDebugger, LooksIntoTheStepsAfterUntangling) {
