@@ -130,7 +130,7 @@ Place Executor::begin_branch() {
   }
   std::erase_if(s_.history, [&](const IterationRow& row) { return row.iteration > branch.start; });
   timeline.cursor.branch = static_cast<unsigned>(timeline.branches.size());
-  const Place left = branch.parent ? place_of(*branch.parent, branch.start) : Place();
+  Place left = branch.parent ? place_of(*branch.parent, branch.start) : Place();
   timeline.branches.push_back(std::move(branch));
   return left;
 }

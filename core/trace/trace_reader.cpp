@@ -10,6 +10,9 @@
 namespace isorelax {
 namespace {
 
+/// What two parts with nothing in them take: each iteration has two, each TracePart, too.
+constexpr std::size_t kLeastBytes = 2 * (4 + 3 * sizeof(std::uint64_t));
+
 /// Takes numbers from the front of a part's content.
 class Numbers {
  public:
@@ -111,8 +114,8 @@ class Reader {
       triangles_ = json.at("triangles").get<std::size_t>();
       const auto iterations = json.at("iterations").get<std::size_t>();
       const auto parts = version > kFirstTraceVersion ? json.at("parts").get<std::size_t>() : 0;
-      // Each takes bytes of its own: a lying count asks for no more memory than the file has.
-      if (iterations > bytes_.size() || parts > bytes_.size())
+      // Each takes bytes of its own: a lying count asks for no more memory than the file's size allows.
+      if (iterations > bytes_.size() / kLeastBytes || parts > bytes_.size() / kLeastBytes)
         fail(part_start_, "promises more iterations than the file can hold");
       trace_.iterations.resize(iterations);
       trace_.parts.resize(parts);
