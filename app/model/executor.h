@@ -95,7 +95,7 @@ class Executor {
   void forget_runs();
   void clear_selection();
   [[nodiscard]] Place place_of(unsigned branch, unsigned iteration) const;
-  [[nodiscard]] PathRequest path_of(unsigned branch, unsigned last) const;
+  [[nodiscard]] Path path_of(unsigned branch, unsigned last) const;
   [[nodiscard]] std::span<const double> worst_values();
   void measure_energy_if_changed();
   void show(const MeshStatePtr& state);

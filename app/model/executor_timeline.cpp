@@ -51,13 +51,13 @@ Place Executor::place_of(unsigned branch, unsigned iteration) const {
   return {held.recording, iteration - held.start, held.not_redone};
 }
 
-PathRequest Executor::path_of(unsigned branch, unsigned last) const {
-  PathRequest path{s_.document, {}};
+Path Executor::path_of(unsigned branch, unsigned last) const {
+  Path path;
   if (s_.timeline.empty()) return path;
   for (unsigned b = branch, end = last;;) {
     const Branch& held = s_.timeline.branches[b];
     if (end >= held.start) {
-      path.segments.insert(path.segments.begin(), {held.recording, end - held.start, held.not_redone});
+      path.insert(path.begin(), {held.recording, end - held.start, held.not_redone});
       end = held.start;
     }
     if (!held.parent) break;
@@ -301,8 +301,7 @@ void Executor::follow_selection() {
   if (path && path->branch == branch && path->vertex == *s_.selected_vertex &&
       path->positions.size() == last + 1)
     return;
-  PathRequest line = path_of(branch, last);
-  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, std::move(line.segments)}));
+  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, path_of(branch, last)}));
 }
 
 void Executor::operator()(Followed& event) {

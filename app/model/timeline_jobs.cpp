@@ -117,7 +117,7 @@ Engine::Job follow_job(FollowRequest request) {
   return [request = std::move(request)](const JobContext& context) {
     Followed followed{request.branch, request.vertex, {}};
     bool given_way = false;
-    walk(nullptr, request.segments, [&](const std::vector<Vec3>& positions, const TraceIteration*) {
+    walk(request.path, [&](const std::vector<Vec3>& positions) {
       given_way = given_way || context.others_wait();
       if (!given_way) followed.positions.push_back(positions[request.vertex]);
     });

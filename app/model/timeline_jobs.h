@@ -3,6 +3,7 @@
 #include "model/redo.h"
 #include "model/scan.h"
 #include "model/timeline.h"
+#include "model/trace_jobs.h"
 
 namespace isorelax::model {
 
@@ -42,7 +43,7 @@ struct ScanRequest {
 struct FollowRequest {
   unsigned branch = 0;
   Index vertex = 0;
-  std::vector<Place> segments;  ///< from iteration 0 on: each from the end of the one before to its iteration
+  Path path;
 };
 /// Where a vertex was: Followed. Gives way to other jobs, and then publishes nothing.
 [[nodiscard]] Engine::Job follow_job(FollowRequest request);

@@ -15,6 +15,10 @@
 namespace isorelax::model {
 namespace {
 
+bool has_begun(const Place& place) {
+  return place.recording && place.recording->has_begun();
+}
+
 /// Adds the parts of a recording that made iterations up to `last`, which stand in `whole` after `offset`
 /// others.
 void add_parts(Trace& whole, const Trace& segment, std::size_t last, std::size_t offset) {
@@ -118,36 +122,31 @@ bool is_trace(const std::filesystem::path& path) {
   return file && std::string_view(letters.data(), letters.size()) == kTraceMagic;
 }
 
-void walk(const Document* document, std::span<const Place> segments,
-          const std::function<void(const std::vector<Vec3>&, const TraceIteration*)>& visit) {
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    const Place& segment = segments[s];
-    if (!segment.recording || !segment.recording->has_begun()) {
-      if (document != nullptr) visit(document->mesh().positions, nullptr);
-      continue;
-    }
+void walk(const Path& path, const std::function<void(const std::vector<Vec3>&)>& visit) {
+  bool started = false;
+  for (const Place& segment : path) {
+    if (!has_begun(segment)) continue;
     std::vector<Vec3> positions = segment.recording->positions_at(0);
-    if (s == 0) visit(positions, nullptr);
+    if (!std::exchange(started, true)) visit(positions);
     for (unsigned k = 0; k < segment.iteration; ++k) {
-      const TraceIteration& iteration = segment.recording->trace().iterations[k];
-      if (!apply_delta(iteration.delta, positions)) throw Error("the recording is damaged");
-      visit(positions, &iteration);
+      if (!apply_delta(segment.recording->trace().iterations[k].delta, positions))
+        throw Error("the recording is damaged");
+      visit(positions);
     }
   }
 }
 
-Trace joined(const PathRequest& path) {
-  const auto begun = [](const Place& segment) { return segment.recording && segment.recording->has_begun(); };
-  const auto first = std::ranges::find_if(path.segments, begun);
-  if (first == path.segments.end()) throw Error("there is no run to save yet");
+Trace joined(const Path& path) {
+  const auto first = std::ranges::find_if(path, has_begun);
+  if (first == path.end()) throw Error("there is no run to save yet");
   Trace whole;
   const Trace& start = first->recording->trace();
-  if (path.segments.size() == 1 && !first->recording->can_grow()) return start;  // as it was read
+  if (path.size() == 1 && !first->recording->can_grow()) return start;  // as it was read
   whole.positions = start.positions;
   whole.triangles = start.triangles;
   whole.quality = start.quality;
-  for (const Place& segment : path.segments) {
-    if (!begun(segment)) continue;
+  for (const Place& segment : path) {
+    if (!has_begun(segment)) continue;
     // Iterations share nothing with the recording's: deltas are copied.
     const Trace& part = segment.recording->trace();
     add_parts(whole, part, segment.iteration, whole.iterations.size());
@@ -162,7 +161,7 @@ Trace joined(const PathRequest& path) {
   return whole;
 }
 
-Engine::Job save_trace_job(PathRequest path, std::filesystem::path file) {
+Engine::Job save_trace_job(Path path, std::filesystem::path file) {
   return [path = std::move(path), file = std::move(file)](const JobContext& context) {
     context.progress("Saving " + file.filename().string(), -1);
     write_trace(file, joined(path));
@@ -170,8 +169,7 @@ Engine::Job save_trace_job(PathRequest path, std::filesystem::path file) {
   };
 }
 
-Engine::Job compare_job(PathRequest first, PathRequest second, unsigned first_branch,
-                        unsigned second_branch) {
+Engine::Job compare_job(Path first, Path second, unsigned first_branch, unsigned second_branch) {
   return [first = std::move(first), second = std::move(second), first_branch,
           second_branch](const JobContext& context) {
     context.progress("Comparing two runs", -1);
