@@ -128,7 +128,7 @@ TEST_F(TraceDebugger, LooksIntoTheStepsAfterUntangling) {
 TEST_F(TraceDebugger, LooksIntoStepsOfARunThatHeldVertices) {
   const std::string torus = make(ShapeKind::torus, {.triangles = 400, .jitter = 0.3});
   open_and_look(record(torus, "--max-deviation 0.012 --iterations 6"));
-  EXPECT_FALSE(trace().parts.front().holds.still.empty());
+  EXPECT_FALSE(trace().parts.front().holds == SurfaceHolds{});
 }
 
 TEST_F(TraceDebugger, SaysWhatIsMissingWhereAFileHasChanged) {
