@@ -192,13 +192,17 @@ class SmoothCommand : public Command {
         [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
           recorder.add(iteration, record, positions);
           frames_.take(iteration, positions);
-          return watch_.look(console, recorder.trace(), record, positions);
+          const bool goes_on = watch_.look(console, recorder.trace(), record, positions);
+          if (!goes_on) recorder.trace().interrupted = true;
+          return goes_on;
         },
         [&](const RunPart& part, std::span<const Vec3> positions) { recorder.begin_part(part, positions); });
     watch_.finish(console, recorder.trace());
     if (!trace_.empty()) {
-      recorder.trace().stopped = name_of(outcome.run.stopped);
-      recorder.trace().stopped_because = to_string(outcome.run.stopped);
+      const bool in_polish = outcome.polish && outcome.polish->stopped == StopReason::cancelled;
+      const StopReason stopped = in_polish ? StopReason::cancelled : outcome.run.stopped;
+      recorder.trace().stopped = name_of(stopped);
+      recorder.trace().stopped_because = to_string(stopped);
       write_trace(trace_, recorder.trace());
     }
     return outcome;

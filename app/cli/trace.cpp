@@ -256,10 +256,9 @@ class TraceCommand : public Command {
   /// Whether the arguments alone say all that was done: not where it was broken off, nor for branches of the
   /// editor.
   static bool is_whole_run(const Trace& trace) {
-    const bool broken_off = trace.stopped == name_of(StopReason::cancelled);
-    return trace.parts.empty() || (!broken_off && std::ranges::none_of(trace.parts, [](const TracePart& p) {
-             return p.words.has_value();
-           }));
+    return trace.parts.empty() ||
+           (!trace.interrupted &&
+            std::ranges::none_of(trace.parts, [](const TracePart& p) { return p.words.has_value(); }));
   }
 
   int replay_by_parts(Console& console, const Trace& trace) const {

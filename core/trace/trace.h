@@ -90,6 +90,8 @@ struct Trace : RunWords {
   /// Ascending by `done`, the first with 0. Empty where nothing is known of them: how the steps were made is
   /// then what the words alone say.
   std::vector<TracePart> parts;
+  /// Somebody ended it, or an attempt that it gave up: the words alone do not do it again.
+  bool interrupted = false;
   std::string stopped;          ///< why the run ended, in one word
   std::string stopped_because;  ///< and in one sentence
 

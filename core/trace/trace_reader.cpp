@@ -121,6 +121,7 @@ class Reader {
       trace_.parts.resize(parts);
       trace_.quality = {json.at("min_angle_deg").get<double>(), json.at("max_angle_deg").get<double>(),
                         json.at("mean_min_angle_deg").get<double>(), json.at("inverted").get<std::size_t>()};
+      if (version > kFirstTraceVersion) trace_.interrupted = json.at("interrupted").get<bool>();
       trace_.stopped = json.at("stopped").get<std::string>();
       trace_.stopped_because = json.at("stopped_because").get<std::string>();
     } catch (const nlohmann::json::exception& error) {

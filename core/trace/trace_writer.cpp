@@ -54,6 +54,7 @@ std::string head(const Trace& trace) {
   json["max_angle_deg"] = trace.quality.max_angle_deg;
   json["mean_min_angle_deg"] = trace.quality.mean_min_angle_deg;
   json["inverted"] = trace.quality.inverted;
+  json["interrupted"] = trace.interrupted;
   json["stopped"] = trace.stopped;
   json["stopped_because"] = trace.stopped_because;
   return text_of(json);

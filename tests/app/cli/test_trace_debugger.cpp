@@ -178,6 +178,14 @@ TEST_F(TraceDebugger, ARunThatAPredicateBrokeOffIsReplayedAsFarAsItWent) {
   const std::string trace = record(square, "--break 'iteration == 4'");
   EXPECT_EQ(test::run_program("trace replay " + trace).status, 0);
   open_and_look(trace);
+  // In a polish, and in an attempt that was given up for the vertices that it took too far.
+  const std::string torus = make(ShapeKind::torus, {.triangles = 400, .jitter = 0.3});
+  for (const char* words : {"--polish worst --iterations 3 --break 'iteration == 5'",
+                            "--max-deviation 0.01 --iterations 12 --break 'energy < 1650'"}) {
+    const test::Outcome replay = test::run_program("trace replay " + record(torus, words));
+    EXPECT_EQ(replay.status, 0) << words << ": " << replay.out;
+    EXPECT_NE(replay.out.find("done again in"), std::string::npos) << words;
+  }
 }
 
 TEST_F(TraceDebugger, BreakpointsLookThroughARunThatWasOpened) {

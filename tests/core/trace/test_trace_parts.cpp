@@ -78,9 +78,11 @@ TEST(TraceParts, AreNeededAndTheirReplayNamesTheFirstStepThatDiffers) {
 }
 
 TEST(TraceParts, StandInTheFileAsTheyWere) {
-  const Trace trace = with_parts();
+  Trace trace = with_parts();
+  trace.interrupted = true;
   const Trace back = parse_trace(trace_bytes(trace), "t");
   EXPECT_EQ(back.parts, trace.parts);
+  EXPECT_TRUE(back.interrupted);
   EXPECT_TRUE(compare_traces(back, trace).settings.empty());
   EXPECT_EQ(base_of(back, back.parts[0]), base_of(trace, trace.parts[0]));
   EXPECT_NE(base_of(back, back.parts[0]), back.positions);
