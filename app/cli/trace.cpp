@@ -179,7 +179,7 @@ class TraceCommand : public Command {
     for (const TraceResource& file : trace.resources) table.row("read", file.path + " (" + file.hash + ")");
     for (const TracePart& part : trace.parts) {
       // One that is all that the arguments say has nothing to tell.
-      if (trace.parts.size() > 1 || says_more_than_words(part)) table.row("part", part_text(part));
+      if (trace.parts.size() > 1 || says_more_than_words(trace, part)) table.row("part", part_text(part));
     }
     table.row("stopped", trace.stopped_because);
     console.result(one_line_each(table.text()) + "\n" + iteration_table(trace));

@@ -75,8 +75,8 @@ Engine::Job inspect_job(InspectRequest request) {
     Inspected inspected;
     inspected.number = request.number;
     inspected.mismatch = std::move(found.mismatch);
-    if (making.part != nullptr &&
-        (request.place.recording->trace().parts.size() > 1 || says_more_than_words(*making.part)))
+    const Trace* trace = making.part != nullptr ? &request.place.recording->trace() : nullptr;
+    if (trace != nullptr && (trace->parts.size() > 1 || says_more_than_words(*trace, *making.part)))
       inspected.made_with = part_text(*making.part);
     if (request.vertex)
       inspected.vertex =

@@ -1,5 +1,6 @@
 #include "trace/trace_parts.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "io/mesh_file.h"
@@ -48,8 +49,11 @@ std::string part_text(const TracePart& part) {
   return text;
 }
 
-bool says_more_than_words(const TracePart& part) {
-  return part.from_base || !part.holds.still.empty() || !part.holds.near.empty();
+bool says_more_than_words(const Trace& trace, const TracePart& part) {
+  const auto& words = words_of(trace, part).arguments;
+  const bool chosen =
+      part.exponent != kDefaultExponent && std::find(words.begin(), words.end(), "--exponent") == words.end();
+  return chosen || part.from_base || !part.holds.still.empty() || !part.holds.near.empty();
 }
 
 bool same_bits(std::span<const Vec3> first, std::span<const Vec3> second) {

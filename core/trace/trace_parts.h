@@ -18,8 +18,9 @@ namespace isorelax {
 /// What a part is made with, on one line: "from iteration 5: exponent 4, 12 vertices held".
 [[nodiscard]] std::string part_text(const TracePart& part);
 
-/// Whether untangling or held vertices are in it, which the words do not tell.
-[[nodiscard]] bool says_more_than_words(const TracePart& part);
+/// Whether what the run found out by itself is in it, and not in its words: untangling, held vertices,
+/// another exponent than the usual one.
+[[nodiscard]] bool says_more_than_words(const Trace& trace, const TracePart& part);
 
 /// Whether both are the same to the bit, signs of zeros and all.
 [[nodiscard]] bool same_bits(std::span<const Vec3> first, std::span<const Vec3> second);

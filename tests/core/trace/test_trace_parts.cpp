@@ -92,6 +92,17 @@ TEST(TraceParts, StandInTheFileAsTheyWere) {
   EXPECT_EQ(part_text(back.parts[1]), "from iteration 2: polish, exponent 8, arguments --mu 0.5");
 }
 
+TEST(TraceParts, SayWhatTheWordsDoNot) {
+  Trace trace = with_parts();
+  EXPECT_TRUE(says_more_than_words(trace, trace.parts[0]));
+  TracePart plain;
+  EXPECT_FALSE(says_more_than_words(trace, plain));
+  plain.exponent = 1;
+  EXPECT_TRUE(says_more_than_words(trace, plain)) << "a run that found the usual one unfit";
+  trace.arguments = {"--exponent", "1"};
+  EXPECT_FALSE(says_more_than_words(trace, plain));
+}
+
 TEST(TraceParts, ADifferenceOfTheirsIsTold) {
   const Trace trace = with_parts();
   Trace other = trace;
