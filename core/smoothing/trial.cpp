@@ -34,7 +34,7 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   if (found == problem.balls.end()) return bring_to_surface(problem, vertex, target);
   // The centre is on the surface: what is brought back from half a radius comes no farther than a radius.
   for (const double share : {1.0, 0.75, 0.5}) {
-    const Vec3 there = bring_to_surface(problem, vertex, into(found->second, share, target));
+    Vec3 there = bring_to_surface(problem, vertex, into(found->second, share, target));
     if (!is_outside(found->second, there)) return there;
   }
   return found->second.centre;
