@@ -9,9 +9,10 @@ namespace isorelax {
 
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
-  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: 0.003, or
-  /// where the mesh is coarse half the mean of edge length times dihedral turn over its smooth edges: two
-  /// good meshes of one curved surface differ by the height of their chords. With a free border at least a
+  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: 0.003,
+  /// more where the mesh is coarse, since two good meshes of one curved surface differ by the height of their
+  /// chords: with the mean c of edge length times dihedral turn over its smooth edges 1.2 c up to 0.005, and
+  /// 0.5 c beyond. With a free border at least a
   /// mean edge: that is how far its outline may go.
   std::optional<double> max;
 };

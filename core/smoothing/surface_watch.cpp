@@ -76,6 +76,7 @@ void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::si
 double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
                        const ProblemOptions& options) {
   constexpr double kFine = 0.003;
+  constexpr double kMedium = 0.005;
   constexpr double kRadians = std::numbers::pi / 180;
   double sum = 0;
   std::size_t count = 0;
@@ -88,9 +89,9 @@ double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& 
     ++count;
   }
   const double diagonal = diagonal_of(positions);
-  const double chords = count == 0 ? 0 : 0.5 * sum / (static_cast<double>(count) * diagonal);
+  const double chord = count == 0 ? 0 : sum / (static_cast<double>(count) * diagonal);
   const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
-  return std::max({kFine, chords, border});
+  return std::max({kFine, std::min(kMedium, 1.2 * chord), 0.5 * chord, border});
 }
 
 SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start,
