@@ -13,6 +13,7 @@
 #include "motion/motion_run.h"
 #include "smoothing/explain.h"
 #include "smoothing/run.h"
+#include "surface/deviation.h"
 #include "trace/trace_diff.h"
 
 namespace isorelax::model {
@@ -72,6 +73,13 @@ struct Iterated {
 struct RunEnded {
   RunResult result;
   std::string broken_by;  ///< the predicate that ended it; empty: none
+};
+/// How far a run has taken the surface from the mesh as opened.
+struct SurfaceMeasured {
+  std::shared_ptr<const Geometry> geometry;  ///< of which state
+  Deviation deviation;
+  double limit = 0;        ///< the largest that `isorelax smooth` would leave, over the diagonal
+  std::size_t turned = 0;  ///< triangles that lie upside down and did not
 };
 /// Holds nothing.
 inline constexpr ValueRange kNoRange{std::numeric_limits<double>::infinity(),
@@ -185,8 +193,8 @@ struct Wrote {
   std::filesystem::path path;
 };
 
-using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, Saved, Failed, RunFailed, Sought,
-                           Inspected, Followed, TraceOpened, Compared, Wrote, Scanned, Moved, MotionEnded,
-                           MotionInspected, MovingPath>;
+using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, SurfaceMeasured, Saved, Failed,
+                           RunFailed, Sought, Inspected, Followed, TraceOpened, Compared, Wrote, Scanned,
+                           Moved, MotionEnded, MotionInspected, MovingPath>;
 
 }  // namespace isorelax::model

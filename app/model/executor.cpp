@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "model/jobs.h"
@@ -11,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMessagesKept = 100;
 constexpr std::size_t kRecentKept = 12;
+/// Triangles up to which the distance from the original is measured after every run.
+constexpr Index kMostMeasured = 200000;
 
 std::string count_label(unsigned count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -304,6 +307,30 @@ void Executor::operator()(RunEnded& event) {
     branch.ended = event.broken_by.empty() ? std::string(to_string(event.result.stopped)) : event.broken_by;
   }
   end_run();
+  measure_surface();
+}
+
+void Executor::measure_surface() {
+  if (!s_.current || s_.is_running() || s_.current->geometry == s_.original->geometry ||
+      s_.document->mesh().triangle_count() > kMostMeasured)
+    return;
+  s_.engine.post("surface", surface_job(s_.document, s_.smoothing, s_.current));
+}
+
+void Executor::operator()(SurfaceMeasured& event) {
+  if (!s_.current || event.geometry != s_.current->geometry) return;
+  std::string text;
+  if (event.turned > 0) text = count_label(static_cast<unsigned>(event.turned), "triangle") + " turned over";
+  if (event.deviation.max > event.limit) {
+    char away[96];
+    std::snprintf(away, sizeof away, "the surface went %.2g %% of its diagonal away from the original",
+                  100 * event.deviation.max);
+    text += (text.empty() ? "" : " and ") + std::string(away);
+  }
+  if (!text.empty())
+    say(MessageKind::warning,
+        text + ". isorelax smooth would have kept vertices near where they were; here, pin them.");
+  s_.surface = std::move(event);
 }
 
 void Executor::operator()(RunFailed& event) {

@@ -55,6 +55,7 @@ class Executor {
   void operator()(EnergyMeasured& event);
   void operator()(Iterated& event);
   void operator()(RunEnded& event);
+  void operator()(SurfaceMeasured& event);
   void operator()(Saved& event);
   void operator()(Failed& event);
   void operator()(RunFailed& event);
@@ -98,6 +99,7 @@ class Executor {
   [[nodiscard]] Path path_of(unsigned branch, unsigned last) const;
   [[nodiscard]] std::span<const double> worst_values();
   void measure_energy_if_changed();
+  void measure_surface();
   void show(const MeshStatePtr& state);
   void apply(const UndoEntry& entry, bool forward);
   void remember_recent(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include "model/arguments.h"
 #include "model/timeline_jobs.h"
 #include "model/trace_jobs.h"
+#include "smoothing/surface_watch.h"
 
 namespace isorelax::model {
 namespace {
@@ -196,6 +197,19 @@ Engine::Job run_job(RunRequest request) {
     } catch (const std::bad_alloc&) {
       context.publish(RunFailed{"not enough memory to smooth this mesh"});
     }
+  };
+}
+
+Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state) {
+  return [document = std::move(document), settings = std::move(settings),
+          state = std::move(state)](const JobContext& context) {
+    if (context.others_wait()) return;
+    context.progress("Measuring the distance from the original", -1);
+    const std::vector<Vec3>& start = document->mesh().positions;
+    const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
+    const double limit = automatic_limit(start, *problem, problem_options(settings));
+    const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem, limit).look(state->positions());
+    context.publish(SurfaceMeasured{state->geometry, found.deviation, limit, found.turned_triangles});
   };
 }
 

@@ -32,6 +32,10 @@ struct RunRequest {
 /// Runs the smoother from a state: Iterated as often as the view keeps up, then RunEnded; or RunFailed.
 [[nodiscard]] Engine::Job run_job(RunRequest request);
 
+/// Measures how far a state is from the document's mesh: SurfaceMeasured. Gives way to other jobs, and then
+/// publishes nothing.
+[[nodiscard]] Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state);
+
 /// Writes the document with a state's positions: Saved or Failed.
 [[nodiscard]] Engine::Job save_job(DocumentPtr document, MeshStatePtr state, std::filesystem::path path);
 

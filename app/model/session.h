@@ -85,7 +85,8 @@ struct Session {
   std::vector<IterationRow> history;
   std::optional<StepSummary> last_step;  ///< the one that led to what is shown
   std::optional<RunResult> last_run;
-  std::string broken_by;  ///< the breakpoint that ended the last run; empty: none
+  std::optional<SurfaceMeasured> surface;  ///< at the end of the last run
+  std::string broken_by;                   ///< the breakpoint that ended the last run; empty: none
   /// Iterations that a paused run still has to do; 0 when Run starts a new one.
   unsigned remaining = 0;
   /// Counts up whenever the energy gets another meaning.

@@ -11,7 +11,7 @@
 namespace isorelax::ui {
 namespace {
 
-enum class Better : std::uint8_t { larger, smaller };
+enum class Better : std::uint8_t { larger, smaller, none };
 
 struct Figure {
   std::string_view label{};
@@ -22,10 +22,25 @@ struct Figure {
   Better better = Better::larger;
 };
 
-std::array<Figure, 9> figures(const model::MeshState& original, const model::MeshState& current) {
+/// Without the sign of a zero that is shown with three decimals.
+double shown_zero(double value) {
+  return std::abs(value) < 0.0005 ? 0 : value;
+}
+
+std::array<Figure, 11> figures(const model::Session& session) {
+  const model::MeshState& original = *session.original;
+  const model::MeshState& current = *session.current;
   const QualityReport& a = original.quality();
   const QualityReport& b = current.quality();
   const double nothing = std::nan("");
+  const bool unmoved = current.geometry == original.geometry;
+  const bool known = session.surface && session.surface->geometry == current.geometry;
+  const double away = unmoved ? 0 : known ? 100 * session.surface->deviation.max : nothing;
+  const double volume = unmoved ? 0
+                        : known && session.surface->deviation.has_volume
+                            ? shown_zero(100 * session.surface->deviation.volume_change)
+                            : nothing;
+  const bool is_far = known && session.surface->deviation.max > session.surface->limit;
   return {{
       {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f",
        "\xC2\xB0"},
@@ -46,6 +61,12 @@ std::array<Figure, 9> figures(const model::MeshState& original, const model::Mes
       {"Energy", "Sum of the energies of all treated triangles; what a run makes smaller.",
        original.energy ? original.energy->total : nothing, current.energy ? current.energy->total : nothing,
        "%.6g", "", Better::smaller},
+      {"Off the original",
+       "Largest distance between the surface and that of the original, of the diagonal of its bounding box. "
+       "Measured when a run has ended.",
+       0, away, "%.3f", " %", is_far ? Better::smaller : Better::none},
+      {"Volume change", "Of the enclosed volume. Measured when a run has ended.", 0, volume, "%.3f", " %",
+       Better::none},
   }};
 }
 
@@ -69,7 +90,8 @@ void draw_figure(const Ui& ui, const Figure& f) {
   // Compared as shown: a difference that cannot be read is none.
   const bool same = text(f.before) == text(f.now);
   const bool better = f.better == Better::larger ? f.now > f.before : f.now < f.before;
-  right_aligned(ui, text(f.now), same ? color::kText : better ? color::kBetter : color::kWorse);
+  const bool plain = same || f.better == Better::none || !std::isfinite(f.now);
+  right_aligned(ui, text(f.now), plain ? color::kText : better ? color::kBetter : color::kWorse);
   mark_area(ui, "figure/" + std::string(f.label), {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
 }
 
@@ -88,7 +110,7 @@ void draw_table(const Ui& ui) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
     text_in(ui.fonts.small, color::kTextFaint, title);
   }
-  for (const Figure& f : figures(*ui.session.original, *ui.session.current)) draw_figure(ui, f);
+  for (const Figure& f : figures(ui.session)) draw_figure(ui, f);
   ImGui::EndTable();
 }
 

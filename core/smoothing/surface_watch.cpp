@@ -107,6 +107,7 @@ SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions) const 
   const std::vector<Index> inverted =
       inverted_triangles(positions, problem_.triangles, problem_.topology, problem_.threads);
   found.turned = vertices_turned_over(inverted_, inverted, problem_.triangles);
+  found.turned_triangles = found.turned.size() / 3;
   if (std::ranges::equal(surface_, start_) && covers_the_same(positions, inverted)) return found;
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
                                                                       problem_.topology, problem_.threads);

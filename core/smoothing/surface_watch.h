@@ -20,6 +20,7 @@ class SurfaceWatch {
     Deviation deviation;
     std::vector<Index> far;     ///< vertices of triangles over the limit, or near it where one is over
     std::vector<Index> turned;  ///< of triangles that lie upside down and did not at the start
+    std::size_t turned_triangles = 0;
   };
 
   /// Deviations are measured from `surface`, runs begin at `start`; `limit` is over the diagonal of

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -95,6 +96,31 @@ TEST_F(SessionTest, ARunGoesWhereItsStepsGo) {
   ASSERT_EQ(session.current->iteration, in_one->iteration);
   for (std::size_t v = 0; v < in_one->positions().size(); ++v)
     ASSERT_EQ(session.current->positions()[v], in_one->positions()[v]) << v;
+}
+
+TEST_F(SessionTest, TheEndOfARunTellsHowFarTheSurfaceWent) {
+  const std::filesystem::path path = folder / "cube.off";
+  (void)write_mesh(path, generate(ShapeKind::cube, {.seed = 2, .triangles = 300, .jitter = 0.5}));
+  do_and_wait(OpenFile{path});
+  EXPECT_FALSE(session.surface);
+  const auto warnings = [&] {
+    return std::ranges::count_if(session.messages,
+                                 [](const Message& m) { return m.kind == MessageKind::warning; });
+  };
+  run(10);
+  ASSERT_TRUE(session.surface);
+  EXPECT_EQ(session.surface->geometry, session.current->geometry);
+  EXPECT_LT(session.surface->deviation.max, 1e-9) << "faces and edges of a cube are kept";
+  EXPECT_TRUE(session.surface->deviation.has_volume);
+  EXPECT_EQ(warnings(), 0);
+  // Without features corners are cut.
+  SmoothingSettings settings = session.smoothing;
+  settings.features = FeatureRule::none;
+  do_and_wait(SetSmoothing{settings, "Features"});
+  run(10);
+  ASSERT_EQ(session.surface->geometry, session.current->geometry);
+  EXPECT_GT(session.surface->deviation.max, session.surface->limit);
+  EXPECT_EQ(warnings(), 1) << last_message();
 }
 
 TEST_F(SessionTest, PositionsAndSettingsAreUndoneSeparately) {
