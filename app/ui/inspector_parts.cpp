@@ -134,11 +134,14 @@ std::string why_sentence(const VertexExplanation& e) {
   std::string why;
   if (e.set_by != kNone)
     why = "triangle " + std::to_string(e.set_by) + " would have folded or become too sharp";
+  if (has(kLimitSurface))
+    why += std::string(why.empty() ? "" : ", and ") + "the surface would have gone too far from where it was";
   if (has(kLimitEnergy)) why += std::string(why.empty() ? "" : ", and ") + "the energy would have risen";
   const std::string where = e.dimensions == 1 ? " along its line" : "";
   if (e.alpha == 0) return "It was stopped: " + why + ".";
   std::string text = "It moves by " + number_text("%.4g", e.alpha * asked) + where + ", ";
-  if (has(kLimitSurface)) text += "kept near where it was so that the surface stays, ";
+  if (e.alpha == 1 && has(kLimitSurface))
+    return text + "sliding along the largest distance from the surface.";
   if (e.alpha == 1) return text + "all that it asked for.";
   return text + percent(e.alpha) + " of what it asked for: further, " + why + ".";
 }

@@ -1,6 +1,8 @@
 #include "smoothing/bounded_run.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "quality/inverted.h"
@@ -16,6 +18,14 @@ namespace {
 constexpr double kStageTolerance = 1e-4;
 /// Nor need a run that only finds out what is to be held.
 constexpr double kTryTolerance = 1e-3;
+
+/// Three digits of a number.
+std::string short_text(double value) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
+  return {text.data(), end};
+}
 
 /// What the user is told about triangles that lay upside down; nothing where there were none.
 std::vector<std::string> note_of(const UntangleResult& untangled) {
@@ -137,6 +147,8 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const double limit = attempts.limit.max ? *attempts.limit.max : automatic_limit(original, unheld, options);
   const SurfaceWatch watch(surface, original, unheld, limit);
   SurfaceHolds holds = options.holds;
+  // A limit that somebody states is mostly needed: every step keeps it from the start.
+  if (attempts.limit.max && std::isfinite(limit)) watch.keep_all_near(holds);
   // The first attempt mostly is the last. After one that was not, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
@@ -147,6 +159,10 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
                                    trying ? std::nullopt : attempts.polish);
     const SurfaceWatch::Finding found = watch.look(positions);
     result.deviation_limit = limit;
+    if (!attempts.limit.max && !holds.near.empty())
+      result.notes.push_back(
+          "the surface is kept near where it was about " + std::to_string(holds.near.size()) +
+          " vertices: they would have led farther than --max-deviation, here " + short_text(limit));
     result.deviation = found.deviation;
     const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;

@@ -14,6 +14,9 @@ namespace {
 constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
+/// Rounds in which a vertex that leads away from the surface loses that part of its move instead of half of
+/// it.
+constexpr unsigned kSlidingRounds = 2;
 /// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
 /// degrees.
 constexpr double kLeastCosine = 0.5;
@@ -101,7 +104,7 @@ double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& 
 }
 
 FoldControl::FoldControl(const SmoothingProblem& problem)
-    : problem_(problem), block_cuts_(block_count(problem.triangle_count())) {}
+    : problem_(problem), surface_(problem), block_cuts_(block_count(problem.triangle_count())) {}
 
 void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const {
   EdgeBatch x;
@@ -151,10 +154,14 @@ void FoldControl::limit(Trial& trial, StepRecord& record) {
   std::vector<Cut> all;
   for (const auto& cuts : block_cuts_) all.insert(all.end(), cuts.begin(), cuts.end());
   shrink_until_free(trial, record, std::move(all));
+  shrink_until_near(trial, record);
 }
 
 std::vector<Index> FoldControl::limit(Trial& trial, StepRecord& record, std::span<const Index> triangles) {
-  return shrink_until_free(trial, record, check(trial, triangles));
+  std::vector<Index> changed = shrink_until_free(trial, record, check(trial, triangles));
+  const std::vector<Index> nearer = shrink_until_near(trial, record);
+  changed.insert(changed.end(), nearer.begin(), nearer.end());
+  return changed;
 }
 
 std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts) {
@@ -177,6 +184,29 @@ std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& reco
     cuts = check(trial, touched);
   }
   return changed;
+}
+
+/// Cuts back the vertices of triangles that would be too far from the surface as it was, until none would.
+std::vector<Index> FoldControl::shrink_until_near(Trial& trial, StepRecord& record) {
+  std::vector<Index> changed;
+  for (unsigned round = 1;; ++round) {
+    const auto blame = round <= kMaxRounds / 2 ? SurfaceLimit::Blame::movers : SurfaceLimit::Blame::all;
+    const std::vector<SurfaceLimit::Excess> far = surface_.too_far(trial.to(), blame);
+    if (far.empty()) return changed;
+    begin_pass(record, kLimitSurface);
+    const double factor = round >= kMaxRounds ? 0.0 : 0.5;
+    Index last = kNone;  // vertex that was cut
+    for (const auto& [v, outwards] : far) {
+      if ((round <= kSlidingRounds && trial.slide(record, v, outwards)) || v == last) continue;
+      last = v;
+      if (trial.cut(record, v, factor, kLimitSurface)) note_cut(record, v, kNone);
+    }
+    const std::vector<Index> touched = trial.take_touched();
+    if (touched.empty() && blame == SurfaceLimit::Blame::all) return changed;
+    changed.insert(changed.end(), touched.begin(), touched.end());
+    const std::vector<Index> unfolded = shrink_until_free(trial, record, check(trial, touched));
+    changed.insert(changed.end(), unfolded.begin(), unfolded.end());
+  }
 }
 
 }  // namespace isorelax

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "smoothing/problem.h"
+#include "smoothing/surface_limit.h"
 #include "smoothing/trial.h"
 #include "smoothing/triangle_batch.h"
 
@@ -19,6 +20,8 @@ double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& 
 /// run: scales each vertex' move by the smallest share of its triangles and repeats with the scaled moves
 /// until no triangle limits. After a bounded number of rounds what still folds is stopped (its vertices do
 /// not move), which always ends. Rounds after the first look only at triangles whose vertices were scaled.
+/// Likewise what would be farther from the surface as it was than the problem allows (SurfaceLimit): vertices
+/// there slide along the limit first, then are cut back.
 class FoldControl {
  public:
   /// Keeps a reference to the problem.
@@ -39,8 +42,10 @@ class FoldControl {
   void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
+  std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);
 
   const SmoothingProblem& problem_;
+  SurfaceLimit surface_;
   std::vector<std::vector<Cut>> block_cuts_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "smoothing/angle_ring.h"
 #include "smoothing/newton_block.h"
+#include "smoothing/surface_limit.h"
 #include "smoothing/tangent.h"
 #include "smoothing/trial.h"
 
@@ -46,6 +47,7 @@ class PolishSmoother : public Smoother {
       : problem_(problem),
         options_(options),
         ring_(problem),
+        surface_(problem),
         objective_(problem),
         movable_(triangles_that_move(problem)),
         ranges_(problem.triangle_count()) {}
@@ -73,6 +75,7 @@ class PolishSmoother : public Smoother {
     if (!std::ranges::equal(positions, x_)) {
       x_.assign(positions.begin(), positions.end());
       measure();
+      surface_.start(x_);
     }
     if (started_) return;
     started_ = true;
@@ -149,6 +152,7 @@ class PolishSmoother : public Smoother {
     if (mean_ - mean() > options_.largest_mean_loss) {
       // Back to where the step began, and on with fewer triangles.
       x_.assign(positions.begin(), positions.end());
+      surface_.start(x_);
       window_ /= 2;
       if (window_ < kLeastWindow) stage_ = kSharpness.size();
       return false;
@@ -186,7 +190,8 @@ class PolishSmoother : public Smoother {
     for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
       const Vec3 there = bring_back(problem_, v, at + d);
       if (!ring_.is_upright(there)) continue;
-      if (!(ring_.soft_value(there, sharpness) > value) || !keeps_floor(there)) continue;
+      if (!(ring_.soft_value(there, sharpness) > value) || !keeps_floor(there) || !keeps_near(v, there))
+        continue;
       at = there;
       return true;
     }
@@ -215,6 +220,15 @@ class PolishSmoother : public Smoother {
     return true;
   }
 
+  /// Nor does the surface go farther from where it was than it may.
+  [[nodiscard]] bool keeps_near(Index v, const Vec3& at) {
+    const Vec3 here = x_[v];
+    x_[v] = at;
+    const bool near = surface_.keeps(x_, v);
+    x_[v] = here;
+    return near;
+  }
+
   void finish(std::span<const Vec3> positions, StepRecord& record) {
     double largest = 0;
     record.moved = 0;
@@ -240,6 +254,7 @@ class PolishSmoother : public Smoother {
   const SmoothingProblem& problem_;
   PolishOptions options_;
   AngleRing ring_;
+  SurfaceLimit surface_;
   Objective objective_;
   std::vector<std::uint8_t> movable_;
   std::vector<Vec3> x_;

@@ -312,7 +312,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .border = {},
                            .plane_normal = {},
                            .surface = {},
-                           .balls = {},
+                           .near = {},
                            .initial_normals = {},
                            .worst_angles = {},
                            .order = VisitOrder(positions, triangles),
@@ -339,17 +339,19 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
     problem.mobility[v] = Mobility::none;
     problem.fixed_limits[v] |= kLimitSurface;
   }
-  for (const Index v : holds.near) {
-    if (problem.mobility[v] != Mobility::none) problem.balls[v] = {positions[v], holds.distance};
+  // In a plane only a border that slides could leave what the mesh covers.
+  const bool can_leave = !problem.plane_normal || !problem.border.empty();
+  if (!holds.near.empty() && can_leave) {
+    NearSurface& near = problem.near.emplace();
+    near.distance = holds.distance;
+    near.kept.assign(positions.size(), 0);
+    for (const Index v : holds.near) near.kept[v] = 1;
+    near.positions.assign(positions.begin(), positions.end());
+    near.surface = std::make_shared<ClosestPointIndex>(positions, problem.triangles);
   }
   if (!holds.still.empty()) {
     problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +
                             " held, to stay near the surface and keep it unfolded: " + list_ids(holds.still));
-  }
-  if (!holds.near.empty()) {
-    problem.notes.push_back(counted(holds.near.size(), "vertex stays", "vertices stay") + " near where " +
-                            (holds.near.size() == 1 ? "it was" : "they were") +
-                            ", so that the surface does: " + list_ids(holds.near));
   }
 }
 

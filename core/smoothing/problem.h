@@ -63,11 +63,12 @@ using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, Ini
 /// The exponent where none is asked for.
 inline constexpr double kDefaultExponent = 2;
 
-/// Vertices that a run found it must hold, to stay near the surface and keep it unfolded.
+/// What a run found it must hold, to stay near the surface and keep it unfolded.
 struct SurfaceHolds {
-  std::vector<Index> still;  ///< where they are
-  std::vector<Index> near;   ///< not farther than `distance` from where they are
-  double distance = 0;       ///< length units
+  std::vector<Index> still;  ///< vertices that stay where they are
+  /// Vertices about which the surface goes no farther than `distance` from where it is; they may slide.
+  std::vector<Index> near;
+  double distance = 0;  ///< length units
 
   bool operator==(const SurfaceHolds&) const = default;
 };
@@ -94,10 +95,12 @@ struct ProblemOptions {
 /// How far a vertex may move: the dimension of its tangent space.
 enum class Mobility : std::uint8_t { none, line, plane };
 
-/// A ball in space.
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;
+/// The surface as it was, and where it has to stay near.
+struct NearSurface {
+  double distance = 0;                               ///< length units
+  std::vector<std::uint8_t> kept;                    ///< per vertex: SurfaceHolds::near
+  std::vector<Vec3> positions;                       ///< as they were
+  std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles
 };
 
 /// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.
@@ -118,8 +121,8 @@ struct SmoothingProblem {
   std::optional<Vec3> plane_normal;
   /// What vertices are brought back to; none for tangent moves and where there is nothing to leave.
   std::shared_ptr<const FrozenSurface> surface;
-  /// The ball that a vertex must not leave, for those that have one.
-  std::unordered_map<Index, Ball> balls;
+  /// What the surface must not go far from; none where nobody asks.
+  std::optional<NearSurface> near;
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
   /// No step makes a triangle worse than these: the worst angles of the treated triangles at the start, or

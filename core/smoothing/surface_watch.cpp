@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "quality/inverted.h"
 #include "surface/feature_edges.h"
@@ -15,6 +16,10 @@ namespace {
 constexpr double kInside = 1 - 1e-9;
 /// Where one triangle is over the limit, those over this share of it are held as well.
 constexpr double kNearLimit = 0.9;
+/// Where steps that keep the surface near let it go too far between their samples, they have to keep it this
+/// much nearer, down to the least share of the limit.
+constexpr double kNearer = 0.93;
+constexpr double kLeastShare = 0.7;
 
 double diagonal_of(std::span<const Vec3> positions) {
   Vec3 low = positions.front();
@@ -117,10 +122,28 @@ SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions) const 
   return found;
 }
 
+double SurfaceWatch::largest_distance() const {
+  return kInside * limit_ * diagonal_of(surface_);
+}
+
+void SurfaceWatch::keep_all_near(SurfaceHolds& holds) const {
+  holds.distance = largest_distance();
+  holds.near.resize(start_.size());
+  std::iota(holds.near.begin(), holds.near.end(), Index{0});
+}
+
 void SurfaceWatch::hold_more(SurfaceHolds& holds, const Finding& found) const {
-  holds.distance = kInside * limit_ * diagonal_of(surface_);
-  const bool nearer = add(holds.near, found.far);
-  if (add(holds.still, found.turned) || nearer || add(holds.still, found.far)) return;
+  const double most = largest_distance();
+  if (!(holds.distance > 0)) holds.distance = most;
+  std::vector<Index> about = found.far;
+  grow(about, problem_.triangles, start_.size());
+  const bool nearer = add(holds.near, about);
+  if (add(holds.still, found.turned) || nearer) return;
+  if (!found.far.empty() && holds.distance > kLeastShare * most) {
+    holds.distance *= kNearer;
+    return;
+  }
+  if (add(holds.still, found.far)) return;
   grow(holds.still, problem_.triangles, start_.size());
 }
 

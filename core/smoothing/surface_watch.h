@@ -30,13 +30,18 @@ class SurfaceWatch {
 
   [[nodiscard]] Finding look(std::span<const Vec3> positions) const;
 
-  /// Holds more than was held in vain. Triangles whose vertices all stay within a distance of where they were
-  /// are no farther from the surface than that; where that was in vain too, or triangles turned over,
-  /// vertices do not move at all; at last their neighbours neither.
+  /// Has every step keep the surface within the limit, everywhere, from the start.
+  void keep_all_near(SurfaceHolds& holds) const;
+
+  /// Holds more than was held in vain. Steps keep the surface near where it went too far; where that was in
+  /// vain they keep it nearer, and at last vertices do not move at all, as where triangles turned over, and
+  /// then their neighbours neither.
   void hold_more(SurfaceHolds& holds, const Finding& found) const;
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
+
+  [[nodiscard]] double largest_distance() const;
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;

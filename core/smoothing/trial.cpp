@@ -9,35 +9,23 @@ namespace isorelax {
 
 namespace {
 
-Vec3 bring_to_surface(const SmoothingProblem& problem, Index vertex, const Vec3& target) {
-  if (!problem.surface) return target;
-  // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
-  return problem.surface->project(target, class_on_surface(problem, vertex), problem.surface->anchor(vertex))
-      .point;
-}
-
-/// The point of the ball nearest to `p`; of the ball of a share of its radius.
-Vec3 into(const Ball& ball, double share, const Vec3& p) {
-  const Vec3 out = p - ball.centre;
-  const double radius = share * ball.radius;
-  return out.squaredNorm() <= radius * radius ? p : Vec3(ball.centre + out * (radius / out.norm()));
-}
-
-bool is_outside(const Ball& ball, const Vec3& p) {
-  return (p - ball.centre).squaredNorm() > ball.radius * ball.radius;
-}
+/// How far from its triangles the smooth surface may be, of the distance that the mesh may: what is left is
+/// for the triangles between vertices on it.
+constexpr double kLargestShare = 0.5;
+/// A move that leads outwards by less than this share of its length slides already.
+constexpr double kLeastSlide = 1e-3;
 
 }  // namespace
 
 Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target) {
-  const auto found = problem.balls.find(vertex);
-  if (found == problem.balls.end()) return bring_to_surface(problem, vertex, target);
-  // The centre is on the surface: what is brought back from half a radius comes no farther than a radius.
-  for (const double share : {1.0, 0.75, 0.5}) {
-    Vec3 there = bring_to_surface(problem, vertex, into(found->second, share, target));
-    if (!is_outside(found->second, there)) return there;
-  }
-  return found->second.centre;
+  if (!problem.surface) return target;
+  // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
+  const SurfaceAnchor anchor = problem.surface->anchor(vertex);
+  Vec3 there = problem.surface->project(target, class_on_surface(problem, vertex), anchor).point;
+  if (!problem.near || problem.near->kept[vertex] == 0) return there;
+  const SurfacePoint foot = problem.near->surface->closest(there, anchor.triangle);
+  const double most = kLargestShare * problem.near->distance;
+  return foot.distance <= most ? there : Vec3(foot.point + (there - foot.point) * (most / foot.distance));
 }
 
 void Trial::start(std::span<const Vec3> from, StepRecord& record) {
@@ -57,9 +45,6 @@ void Trial::place(StepRecord& record, Index vertex) {
   if (bends_ && alpha > 0 && !tangent_[vertex].isZero(0)) {
     const Vec3 asked = from_[vertex] + alpha * tangent_[vertex];
     record.displacement[vertex] = (bring_back(problem_, vertex, asked) - from_[vertex]) / alpha;
-    const auto ball = problem_.balls.find(vertex);
-    if (ball != problem_.balls.end() && is_outside(ball->second, asked))
-      record.limits[vertex] |= kLimitSurface;
   }
   to_[vertex] = from_[vertex] + alpha * record.displacement[vertex];
 }
@@ -69,13 +54,31 @@ bool Trial::cut(StepRecord& record, Index vertex, double factor, Limit why) {
   record.alpha[vertex] *= factor;
   record.limits[vertex] |= why;
   place(record, vertex);
+  touch(vertex);
+  return true;
+}
+
+bool Trial::slide(StepRecord& record, Index vertex, const Vec3& outwards) {
+  if (problem_.mobility[vertex] != Mobility::plane) return false;
+  Vec3& move = bends_ ? tangent_[vertex] : record.displacement[vertex];
+  const Vec3 axis = tangent_axis(problem_, from_, vertex);
+  const Vec3 along = tangent_part(Mobility::plane, axis, outwards).stableNormalized();
+  const double outward = move.dot(along);
+  if (!(outward > kLeastSlide * move.norm())) return false;
+  move -= outward * along;
+  record.limits[vertex] |= kLimitSurface;
+  place(record, vertex);
+  touch(vertex);
+  return true;
+}
+
+void Trial::touch(Index vertex) {
   for (const Corner c : problem_.topology.corners_of(vertex)) {
     const Index t = c / 3;
     if (stamp_[t] == round_) continue;
     stamp_[t] = round_;
     touched_.push_back(t);
   }
-  return true;
 }
 
 std::vector<Index> Trial::take_touched() {

@@ -9,7 +9,7 @@
 namespace isorelax {
 
 /// Where a vertex ends that is sent to `target`: there, or on the frozen surface near it if there is one; and
-/// in its ball if it has one.
+/// half-way at most from the triangles as they were to where these must be near.
 [[nodiscard]] Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target);
 
 /// Where a record's accepted moves lead: x + alpha * displacement for every vertex, kept up to date while
@@ -18,9 +18,7 @@ class Trial {
  public:
   /// Keeps a reference to the problem.
   explicit Trial(const SmoothingProblem& problem)
-      : problem_(problem),
-        bends_(problem.surface || !problem.balls.empty()),
-        stamp_(problem.triangle_count(), 0) {}
+      : problem_(problem), bends_(problem.surface != nullptr), stamp_(problem.triangle_count(), 0) {}
 
   /// Starts from the record's tangent moves, all alphas 1, and bends the displacements to the surface.
   void start(std::span<const Vec3> from, StepRecord& record);
@@ -28,6 +26,10 @@ class Trial {
   /// Multiplies a vertex' alpha by `factor`, sets `why` among its limits and moves the trial. No effect, and
   /// false, for a vertex that does not move.
   bool cut(StepRecord& record, Index vertex, double factor, Limit why);
+
+  /// Takes from a vertex' move in its tangent plane what leads outwards, and moves the trial. False for one
+  /// that does not move so.
+  bool slide(StepRecord& record, Index vertex, const Vec3& outwards);
 
   [[nodiscard]] std::span<const Vec3> from() const { return from_; }
   [[nodiscard]] std::span<const Vec3> to() const { return to_; }
@@ -37,6 +39,7 @@ class Trial {
 
  private:
   void place(StepRecord& record, Index vertex);
+  void touch(Index vertex);
 
   const SmoothingProblem& problem_;
   bool bends_;  // moves need not end where they were proposed to

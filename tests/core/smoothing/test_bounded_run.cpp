@@ -65,44 +65,56 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   EXPECT_EQ(mesh.positions, shaken_torus().positions);
 }
 
-TEST(BoundedRun, VerticesThatAreKeptNearMoveAndStayNear) {
+TEST(BoundedRun, EveryStepOfAStatedLimitKeepsIt) {
   const TriangleMesh start = shaken_torus();
-  ProblemOptions options;
-  options.holds.distance = 0.02;
-  for (Index v = 0; v < start.vertex_count(); v += 2) options.holds.near.push_back(v);
   for (const SurfaceRule surface : {SurfaceRule::tangent, SurfaceRule::project}) {
-    options.surface = surface;
-    const SmoothingProblem problem = make_problem(start.positions, start.triangles, options);
-    std::vector<Vec3> x = start.positions;
-    std::size_t limited = 0;
-    run(*make_smoother(problem, Solver::automatic), problem, x, {.iterations = 30},
-        [&](unsigned, const StepRecord& record, std::span<const Vec3>) {
+    TriangleMesh mesh = start;
+    const double limit = 0.3 * smooth(mesh, std::numeric_limits<double>::infinity(), surface).deviation.max;
+    mesh = start;
+    std::size_t limited = 0, attempts = 0;
+    double largest = 0;
+    run_bounded(
+        mesh.positions, mesh.triangles, {.surface = surface},
+        [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
+        {.iterations = 30}, {limit},
+        [&](unsigned, const StepRecord& record, std::span<const Vec3> positions) {
           limited += count_limits(record.limits)[6];
+          TriangleMesh now = start;
+          now.positions.assign(positions.begin(), positions.end());
+          largest = std::max(largest, deviation(start, now));
           return true;
+        },
+        PolishOptions{.iterations = 5},
+        [&](const RunPart& part, std::span<const Vec3>) {
+          attempts += part.done == 0 ? 1 : 0;
+          EXPECT_TRUE(part.holds.still.empty());
         });
-    double nearest = 0, farthest = 0;
-    for (Index v = 0; v < x.size(); ++v) {
-      double& largest = v % 2 == 0 ? nearest : farthest;
-      largest = std::max(largest, (x[v] - start.positions[v]).norm());
-    }
-    EXPECT_LE(nearest, options.holds.distance * (1 + 1e-12));
-    EXPECT_GT(nearest, 0.9 * options.holds.distance);
-    EXPECT_GT(farthest, 2 * options.holds.distance);
+    EXPECT_LE(largest, limit);
+    EXPECT_GT(largest, 0.5 * limit);
     EXPECT_GT(limited, 0U);
+    EXPECT_EQ(attempts, 1U) << "nothing was found out too late";
+    double farthest = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      farthest = std::max(farthest, (mesh.positions[v] - start.positions[v]).norm());
+    EXPECT_GT(farthest, 10 * limit) << "vertices slide";
   }
 }
 
-TEST(BoundedRun, KeepsVerticesNearBeforeItHoldsThemStill) {
+TEST(BoundedRun, ATightLimitCostsLittleQuality) {
   TriangleMesh mesh = shaken_torus();
-  const double unlimited = smooth(mesh, std::numeric_limits<double>::infinity()).deviation.max;
-  mesh = shaken_torus();
-  SurfaceHolds last;
-  run_bounded(
-      mesh.positions, mesh.triangles, {.surface = SurfaceRule::tangent},
-      [](const SmoothingProblem& problem) { return make_jacobi(problem); }, {.iterations = 40},
-      {0.5 * unlimited}, {}, {}, [&](const RunPart& part, std::span<const Vec3>) { last = part.holds; });
-  EXPECT_GT(last.near.size(), 0U);
-  EXPECT_TRUE(last.still.empty());
+  const auto run_within = [&](double limit) {
+    mesh = shaken_torus();
+    return run_bounded(
+               mesh.positions, mesh.triangles, {},
+               [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {},
+               {limit})
+        .deviation.max;
+  };
+  const double free = run_within(std::numeric_limits<double>::infinity());
+  const QualityReport best = measure_quality(mesh);
+  EXPECT_LE(run_within(0.7 * free), 0.7 * free);
+  EXPECT_GT(measure_quality(mesh).min_angle_deg, best.min_angle_deg - 10);
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, best.mean_min_angle_deg - 0.5);
 }
 
 TEST(BoundedRun, ProjectionKeepsVerticesOnTheSurfaceItCameFrom) {

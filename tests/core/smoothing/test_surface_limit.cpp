@@ -1,0 +1,127 @@
+#include "smoothing/surface_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isorelax {
+namespace {
+
+constexpr double kDistance = 0.1;
+
+/// All may move, but none farther from the surface than kDistance.
+SmoothingProblem kept_near(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+  ProblemOptions options;
+  options.surface = SurfaceRule::tangent;
+  options.boundary = BoundaryRule::free;
+  options.holds.distance = kDistance;
+  for (Index v = 0; v < x.size(); ++v) options.holds.near.push_back(v);
+  return make_problem(x, triangles, options);
+}
+
+/// A pyramid without its base: vertex 0 is the tip, over a hexagon of radius 1.
+std::vector<Vec3> tent_of(double height) {
+  std::vector<Vec3> x{{0, 0, height}};
+  for (int i = 0; i < 6; ++i)
+    x.emplace_back(std::cos(i * std::numbers::pi / 3), std::sin(i * std::numbers::pi / 3), 0);
+  return x;
+}
+
+struct Tent {
+  std::vector<Vec3> x;
+  SmoothingProblem problem;
+
+  explicit Tent(double height)
+      : x(tent_of(height)),
+        problem(kept_near(
+            x, std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 1}})) {}
+
+  /// Vertices to blame with the tip at `tip`.
+  [[nodiscard]] std::vector<Index> blamed(const Vec3& tip) const {
+    SurfaceLimit limit(problem);
+    std::vector<Vec3> moved = x;
+    moved[0] = tip;
+    std::vector<Index> vertices;
+    for (const auto& excess : limit.too_far(moved, SurfaceLimit::Blame::movers))
+      if (vertices.empty() || vertices.back() != excess.vertex) vertices.push_back(excess.vertex);
+    return vertices;
+  }
+};
+
+TEST(SurfaceLimit, WithoutALimitNothingIsTooFar) {
+  Tent tent(0.5);
+  tent.problem.near.reset();
+  EXPECT_TRUE(tent.blamed({0, 0, 100}).empty());
+}
+
+TEST(SurfaceLimit, AVertexThatLeavesTheSurfaceIsToBlame) {
+  const Tent tent(0.5);
+  EXPECT_TRUE(tent.blamed({0, 0, 0.5}).empty());
+  EXPECT_TRUE(tent.blamed({0, 0, 0.5 + 0.9 * kDistance}).empty());
+  EXPECT_EQ(tent.blamed({0, 0, 0.5 + 1.1 * kDistance}), std::vector<Index>{0});
+}
+
+TEST(SurfaceLimit, ATipThatIsCutOffIsTooFarThoughAllOfTheNewSurfaceIsNear) {
+  const Tent tent(0.5);
+  // Sunk by 1.05 of the distance, the new tip is nearer than that to the slopes.
+  const Vec3 tip(0, 0, 0.5 - 1.05 * kDistance);
+  EXPECT_LT(tent.problem.near->surface->closest(tip).distance, 0.95 * kDistance);
+  EXPECT_EQ(tent.blamed(tip), std::vector<Index>{0});
+  EXPECT_TRUE(tent.blamed({0, 0, 0.5 - 0.9 * kDistance}).empty());
+}
+
+TEST(SurfaceLimit, TellsTheDirectionAwayFromTheSurface) {
+  const Tent tent(0.5);
+  SurfaceLimit limit(tent.problem);
+  std::vector<Vec3> moved = tent.x;
+  moved[0][2] += 2 * kDistance;
+  for (const auto& excess : limit.too_far(moved, SurfaceLimit::Blame::all)) {
+    EXPECT_NEAR(excess.outwards.norm(), 1, 1e-12);
+    EXPECT_GT(excess.outwards[2], 0.5);
+  }
+  moved[0][2] -= 4 * kDistance;
+  for (const auto& excess : limit.too_far(moved, SurfaceLimit::Blame::all))
+    EXPECT_LT(excess.outwards[2], -0.5) << "of vertex " << excess.vertex;
+}
+
+TEST(SurfaceLimit, SlidingInAPlaneIsNeverTooFar) {
+  // The slightest tent: a plane for any distance, and no planar mesh, where nothing can leave.
+  const Tent flat(1e-6);
+  EXPECT_TRUE(flat.blamed({0.5, 0.3, 0}).empty());
+  EXPECT_FALSE(flat.blamed({0.5, 0.3, 1.1 * kDistance}).empty());
+}
+
+TEST(SurfaceLimit, AnEdgeMayBeTooFarBetweenItsEnds) {
+  // A strip of two squares folded along x = 0; its ends stay on it, the edge between them cuts the corner.
+  const std::vector<Vec3> x{{-1, 0, -1}, {-1, 1, -1}, {0, 0, 0}, {0, 1, 0}, {1, 0, -1}, {1, 1, -1}};
+  const std::vector<Triangle> triangles{{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
+  const SmoothingProblem problem = kept_near(x, triangles);
+  SurfaceLimit limit(problem);
+  std::vector<Vec3> moved = x;
+  moved[2] = {0.2, 0, -0.2};  // on the slope, but the edge to vertex 0 is not
+  const auto far = limit.too_far(moved, SurfaceLimit::Blame::movers);
+  ASSERT_FALSE(far.empty());
+  EXPECT_TRUE(std::ranges::any_of(far, [](const auto& excess) { return excess.vertex == 2; }));
+  moved[2] = {0.03, 0, -0.03};
+  EXPECT_TRUE(limit.too_far(moved, SurfaceLimit::Blame::movers).empty());
+}
+
+TEST(SurfaceLimit, KeepsTellsTheSameOfOneVertex) {
+  const Tent tent(0.5);
+  SurfaceLimit limit(tent.problem);
+  std::vector<Vec3> x = tent.x;
+  limit.start(x);
+  const auto keeps_at = [&](double z) {
+    x[0][2] = z;
+    return limit.keeps(x, 0);
+  };
+  EXPECT_TRUE(keeps_at(0.5 + 0.9 * kDistance));
+  EXPECT_FALSE(keeps_at(0.5 + 1.1 * kDistance));
+  EXPECT_FALSE(keeps_at(0.5 - 1.05 * kDistance)) << "the tip as it was is too far";
+  EXPECT_TRUE(keeps_at(0.5 - 0.9 * kDistance));
+}
+
+}  // namespace
+}  // namespace isorelax
