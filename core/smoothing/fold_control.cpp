@@ -15,8 +15,9 @@ constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
 /// Rounds in which a vertex that leads away from the surface loses that part of its move instead of half of
-/// it.
+/// it, and rounds after which it loses all.
 constexpr unsigned kSlidingRounds = 2;
+constexpr unsigned kNearRounds = 6;
 /// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
 /// degrees.
 constexpr double kLeastCosine = 0.5;
@@ -190,11 +191,11 @@ std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& reco
 std::vector<Index> FoldControl::shrink_until_near(Trial& trial, StepRecord& record) {
   std::vector<Index> changed;
   for (unsigned round = 1;; ++round) {
-    const auto blame = round <= kMaxRounds / 2 ? SurfaceLimit::Blame::movers : SurfaceLimit::Blame::all;
+    const auto blame = round <= kNearRounds ? SurfaceLimit::Blame::movers : SurfaceLimit::Blame::all;
     const std::vector<SurfaceLimit::Excess> far = surface_.too_far(trial.to(), blame);
     if (far.empty()) return changed;
     begin_pass(record, kLimitSurface);
-    const double factor = round >= kMaxRounds ? 0.0 : 0.5;
+    const double factor = round >= kNearRounds ? 0.0 : 0.5;
     Index last = kNone;  // vertex that was cut
     for (const auto& [v, outwards] : far) {
       if ((round <= kSlidingRounds && trial.slide(record, v, outwards)) || v == last) continue;

@@ -17,6 +17,8 @@ constexpr double kRounding = 1e-9;
 /// surfaces make no larger an angle than one with this sine; and likewise about the farthest at smaller and
 /// smaller distances.
 constexpr double kSlope = 0.25;
+/// Share of the limit up to which quarters tell that the surfaces are the same there.
+constexpr double kSame = 0.01;
 constexpr unsigned kHalvings = 4;
 constexpr int kMaxWalk = 1000;
 /// Share of a vertex' move that counts at a point from which on it is to blame.
@@ -85,7 +87,7 @@ Vec3 SurfaceLimit::point_of(const Line& line, double share) const {
 
 /// From triangle to triangle as long as that comes nearer: over the edge or about the vertex that the closest
 /// point lies on.
-SurfacePoint SurfaceLimit::nearest_now(std::span<const Vec3> x, const Vec3& point, Index triangle) const {
+SurfacePoint SurfaceLimit::walk(std::span<const Vec3> x, const Vec3& point, Index triangle) const {
   const auto foot = [&](Index t) {
     const Corners y = corners_of(x, t);
     SurfacePoint found = closest_point_of_triangle(point, y[0], y[1], y[2]);
@@ -114,6 +116,12 @@ SurfacePoint SurfaceLimit::nearest_now(std::span<const Vec3> x, const Vec3& poin
   return best;
 }
 
+/// A walk mostly ends at the closest point of all; where it leads too far, that is looked for.
+SurfacePoint SurfaceLimit::nearest_then(const Vec3& point, Index triangle) const {
+  const SurfacePoint found = walk(problem_.near->positions, point, triangle);
+  return found.distance <= allowed_ ? found : problem_.near->surface->closest(point, found.triangle);
+}
+
 void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
   const Vec3& a = x[edge.vertices[0]];
   const Vec3& b = x[edge.vertices[1]];
@@ -123,7 +131,7 @@ void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
   edge.distance = 0;
   edge.share = 0.5;
   const auto distance_at = [&](double share) {
-    const SurfacePoint found = problem_.near->surface->closest((1 - share) * a + share * b, edge.near);
+    const SurfacePoint found = nearest_then((1 - share) * a + share * b, edge.near);
     edge.near = found.triangle;
     return found.distance;
   };
@@ -133,7 +141,8 @@ void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
   };
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) look(share);
   const double slack = kSlope * (b - a).norm();
-  if (edge.distance > allowed_ || edge.distance + slack / 8 <= allowed_) return;
+  if (edge.distance > allowed_ || edge.distance <= kSame * allowed_) return;
+  if (edge.distance + slack / 8 <= allowed_) return;
   for (const double share : {0.125, 0.375, 0.625, 0.875}) look(share);
   if (edge.distance + slack / 16 > allowed_) refine(distance_at, 0.0625, edge.share, edge.distance, allowed_);
 }
@@ -144,7 +153,7 @@ double SurfaceLimit::probe(std::span<const Vec3> x, const Vec3& point, Probe& la
   double moved2 = 0;
   for (unsigned k = 0; k < 3; ++k) moved2 = std::max(moved2, (here[k] - last.corners[k]).squaredNorm());
   if (is_near_still(last.distance, moved2, allowed_)) return last.distance + std::sqrt(moved2);
-  const SurfacePoint found = nearest_now(x, point, last.triangle);
+  const SurfacePoint found = walk(x, point, last.triangle);
   last = {found.triangle, corners_of(x, found.triangle), found.distance};
   return found.distance;
 }
@@ -158,9 +167,10 @@ SurfaceLimit::Peak SurfaceLimit::peak_of(std::span<const Vec3> x, const Line& li
     if (bound > peak.bound || peak.triangle == kNone) peak = {bound, share, last.triangle};
   }
   const double slack = kSlope * line.length;
-  if (peak.bound > allowed_ || peak.bound + slack / 8 <= allowed_) return peak;
+  if (peak.bound > allowed_ || peak.bound <= kSame * allowed_) return peak;
+  if (peak.bound + slack / 8 <= allowed_) return peak;
   const auto distance_at = [&](double share) {
-    const SurfacePoint found = nearest_now(x, point_of(line, share), peak.triangle);
+    const SurfacePoint found = walk(x, point_of(line, share), peak.triangle);
     peak.triangle = found.triangle;
     return found.distance;
   };
@@ -176,7 +186,7 @@ void SurfaceLimit::blame_edge(const Edge& edge, std::span<const Vec3> x, Blame b
                               std::vector<Excess>& to) const {
   const double least = blame == Blame::all ? 0 : kLeastWeight;
   const Vec3 point = (1 - edge.share) * x[edge.vertices[0]] + edge.share * x[edge.vertices[1]];
-  const Vec3 outwards = (point - problem_.near->surface->closest(point, edge.near).point).stableNormalized();
+  const Vec3 outwards = (point - nearest_then(point, edge.near).point).stableNormalized();
   if (1 - edge.share >= least) to.push_back({edge.vertices[0], outwards});
   if (edge.share >= least) to.push_back({edge.vertices[1], outwards});
 }
@@ -184,7 +194,7 @@ void SurfaceLimit::blame_edge(const Edge& edge, std::span<const Vec3> x, Blame b
 void SurfaceLimit::blame_about(const Line& line, const Peak& peak, std::span<const Vec3> x, Blame blame,
                                std::vector<Excess>& to) const {
   const Vec3 point = point_of(line, peak.share);
-  const SurfacePoint found = nearest_now(x, point, peak.triangle);
+  const SurfacePoint found = walk(x, point, peak.triangle);
   const Vec3 outwards = (found.point - point).stableNormalized();
   for (unsigned k = 0; k < 3; ++k) {
     const Index v = problem_.triangles[found.triangle][k];

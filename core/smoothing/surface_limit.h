@@ -11,10 +11,9 @@ namespace isorelax {
 /// way.
 ///
 /// Where two triangulations lie over each other, the largest distance between them is at a vertex of one of
-/// them or where two edges cross. Measured are the edges of now, from end to end, by exact closest points of
-/// the surface as it was; and the vertices and edges as they were, by walking over the triangles of now from
-/// the one that was nearest last. As long as nothing has moved by more than is left to the limit, nothing is
-/// measured anew.
+/// them or where two edges cross. Measured are the edges of now, from end to end, and the vertices and edges
+/// as they were, each by walking over the triangles of the other surface from the one that was nearest last.
+/// As long as nothing has moved by more than is left to the limit, nothing is measured anew.
 class SurfaceLimit {
  public:
   /// Keeps a reference to the problem.
@@ -72,7 +71,8 @@ class SurfaceLimit {
 
   [[nodiscard]] Vec3 point_of(const Line& line, double share) const;
   [[nodiscard]] Corners corners_of(std::span<const Vec3> x, Index triangle) const;
-  [[nodiscard]] SurfacePoint nearest_now(std::span<const Vec3> x, const Vec3& point, Index triangle) const;
+  [[nodiscard]] SurfacePoint walk(std::span<const Vec3> x, const Vec3& point, Index triangle) const;
+  [[nodiscard]] SurfacePoint nearest_then(const Vec3& point, Index triangle) const;
   void measure(std::span<const Vec3> x, Edge& edge) const;
   [[nodiscard]] double probe(std::span<const Vec3> x, const Vec3& point, Probe& last) const;
   [[nodiscard]] Peak peak_of(std::span<const Vec3> x, const Line& line);
