@@ -76,7 +76,7 @@ std::string round_label(const model::StepSummary* step, const model::Session& s,
     unsigned seen = 0;
     const auto& passes = view->record->detail->passes;
     for (unsigned k = 0; k < passes.size(); ++k) {
-      if (passes[k].why != why) continue;
+      if ((passes[k].why == kLimitEnergy) != (why == kLimitEnergy)) continue;
       ++seen;
       if (!first) first = Stage{StageKind::control, k};
       if (s.timeline.cursor.stage == Stage{StageKind::control, k}) at = seen;
@@ -103,10 +103,12 @@ std::vector<StageButton> stage_buttons(const model::Session& s) {
     std::optional<Stage> first;
     std::string label = round_label(step, s, why, why == kLimitFold ? "Control" : "Guard", first);
     const bool on = label.find('/') != std::string::npos;
-    buttons.push_back({std::move(label),
-                       why == kLimitFold ? "Rounds of the step control: what folds is cut back."
-                                         : "Rounds of the energy guard: where the energy rose is cut back.",
-                       first.value_or(Stage{}), on, first.has_value()});
+    buttons.push_back(
+        {std::move(label),
+         why == kLimitFold
+             ? "Rounds of the step control: what folds, or goes too far from the surface, is cut back."
+             : "Rounds of the energy guard: where the energy rose is cut back.",
+         first.value_or(Stage{}), on, first.has_value()});
   }
   buttons.push_back(plain("Moved", "The move that was made.", StageKind::moved));
   return buttons;

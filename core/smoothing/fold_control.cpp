@@ -194,6 +194,7 @@ std::vector<Index> FoldControl::shrink_until_near(Trial& trial, StepRecord& reco
     const auto blame = round <= kNearRounds ? SurfaceLimit::Blame::movers : SurfaceLimit::Blame::all;
     const std::vector<SurfaceLimit::Excess> far = surface_.too_far(trial.to(), blame);
     if (far.empty()) return changed;
+    ++record.fold_passes;
     begin_pass(record, kLimitSurface);
     const double factor = round >= kNearRounds ? 0.0 : 0.5;
     Index last = kNone;  // vertex that was cut

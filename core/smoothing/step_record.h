@@ -35,9 +35,10 @@ struct StepTotals {
 struct ControlCut {
   Index vertex = 0;
   double alpha = 1;        ///< what is left of its move
-  Index triangle = kNone;  ///< that would have folded; kNone: it was the energy
+  Index triangle = kNone;  ///< that would have folded; kNone: it was the energy, or the distance
 };
-/// One round of the fold control (kLimitFold) or of the energy guard (kLimitEnergy).
+/// One round of the step control, against folds (kLimitFold) or distance from the surface (kLimitSurface), or
+/// of the energy guard (kLimitEnergy).
 struct ControlPass {
   Limit why = kLimitFold;
   std::vector<ControlCut> cuts;
@@ -70,7 +71,7 @@ struct StepRecord {
 
   StepTotals before, after;
   double largest_move = 0;     ///< length of the longest accepted move
-  unsigned fold_passes = 0;    ///< rounds of the asynchronous step-size control
+  unsigned fold_passes = 0;    ///< rounds of the asynchronous step-size control, against distance too
   unsigned energy_passes = 0;  ///< rounds of the energy guard
   std::size_t moved = 0;       ///< vertices that move
 };

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "generate/generate.h"
+#include "smoothing/run.h"
+
 namespace isorelax {
 namespace {
 
@@ -121,6 +124,21 @@ TEST(SurfaceLimit, KeepsTellsTheSameOfOneVertex) {
   EXPECT_FALSE(keeps_at(0.5 + 1.1 * kDistance));
   EXPECT_FALSE(keeps_at(0.5 - 1.05 * kDistance)) << "the tip as it was is too far";
   EXPECT_TRUE(keeps_at(0.5 - 0.9 * kDistance));
+}
+
+TEST(SurfaceLimit, RoundsThatItTakesAreInTheRecord) {
+  const TriangleMesh torus = generate(ShapeKind::torus, {.seed = 3, .triangles = 1000, .jitter = 0.5});
+  ProblemOptions options;
+  options.holds.distance = 0.01;
+  for (Index v = 0; v < torus.vertex_count(); ++v) options.holds.near.push_back(v);
+  const SmoothingProblem problem = make_problem(torus.positions, torus.triangles, options);
+  StepRecord record;
+  make_smoother(problem, Solver::newton, RecordDetail::stages)->step(torus.positions, record);
+  const auto& passes = record.detail->passes;
+  EXPECT_TRUE(std::ranges::any_of(passes, [](const auto& pass) { return pass.why == kLimitSurface; }));
+  EXPECT_EQ(passes.size(), record.fold_passes + record.energy_passes);
+  EXPECT_EQ(alpha_after(record, passes.size()), record.alpha);
+  EXPECT_GT(count_limits(record.limits)[6], 0U);
 }
 
 }  // namespace
