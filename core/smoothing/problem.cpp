@@ -16,8 +16,8 @@ constexpr double kDegenerate = 1e-12;
 constexpr double kPlanar = 1e-12;
 
 /// A mesh of right triangles, as design programs make them, could hardly move if no angle were to grow: where
-/// none is larger than the first of these, all may grow up to the second. Cotangents of 95 and 120 degrees.
-constexpr double kRightAngledCot = -0.0874886635259240;
+/// none is larger than the first of these, all may grow up to the second. Cotangents of 100 and 120 degrees.
+constexpr double kRightAngledCot = -0.17632698070846498;
 constexpr double kHarmlessCot = -0.57735026918962576;
 constexpr double kAngleRounding = 1e-12;
 

@@ -126,7 +126,7 @@ struct SmoothingProblem {
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
   /// No step makes a triangle worse than these: the worst angles of the treated triangles at the start, or
-  /// 120 degrees where none is larger than 95. No limit where areas count more than angles or the reference
+  /// 120 degrees where none is larger than 100. No limit where areas count more than angles or the reference
   /// is not equilateral.
   WorstAngles worst_angles;
   VisitOrder order;
