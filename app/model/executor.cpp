@@ -328,8 +328,7 @@ void Executor::operator()(SurfaceMeasured& event) {
     text += (text.empty() ? "" : " and ") + std::string(away);
   }
   if (!text.empty())
-    say(MessageKind::warning,
-        text + ". isorelax smooth would have kept vertices near where they were; here, pin them.");
+    say(MessageKind::warning, text + ". isorelax smooth would have prevented that; here, pin vertices.");
   s_.surface = std::move(event);
 }
 

@@ -339,8 +339,10 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
     problem.mobility[v] = Mobility::none;
     problem.fixed_limits[v] |= kLimitSurface;
   }
-  // In a plane only a border that slides could leave what the mesh covers.
-  const bool can_leave = !problem.plane_normal || !problem.border.empty();
+  // In a plane only a border that moves could leave what the mesh covers.
+  bool can_leave = !problem.plane_normal;
+  for (Index v = 0; v < problem.vertex_count() && !can_leave; ++v)
+    can_leave = problem.topology.is_boundary(v) && problem.mobility[v] != Mobility::none;
   if (!holds.near.empty() && can_leave) {
     NearSurface& near = problem.near.emplace();
     near.distance = holds.distance;

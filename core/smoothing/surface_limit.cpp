@@ -14,8 +14,8 @@ constexpr double kMeasured = 0.97;
 constexpr double kRounding = 1e-9;
 /// Distances along a line have kinks where it crosses edges of the other surface, and one of those is the
 /// farthest point. It is measured at quarters; at eighths where between quarters it could be too far, if the
-/// surfaces make no larger an angle than one with this sine; and likewise about the farthest at smaller and
-/// smaller distances.
+/// surfaces make no larger an angle than one with this sine (outlines may make any); and likewise about the
+/// farthest at smaller and smaller distances.
 constexpr double kSlope = 0.25;
 /// Share of the limit up to which quarters tell that the surfaces are the same there.
 constexpr double kSame = 0.01;
@@ -55,6 +55,7 @@ SurfaceLimit::SurfaceLimit(const SmoothingProblem& problem) : problem_(problem) 
   allowed_ = kMeasured * near.distance;
   last_ = near.positions;
   moved_.assign(last_.size(), 0);
+  stirred_ = moved_;
   const auto add_line = [&](const std::array<Index, 2>& ends, Index triangle, std::uint32_t probes) {
     const double length = (near.positions[ends[1]] - near.positions[ends[0]]).norm();
     lines_.push_back(
@@ -122,6 +123,16 @@ SurfacePoint SurfaceLimit::nearest_then(const Vec3& point, Index triangle) const
   return found.distance <= allowed_ ? found : problem_.near->surface->closest(point, found.triangle);
 }
 
+double SurfaceLimit::slope_along(const std::array<Index, 2>& ends) const {
+  return problem_.topology.is_boundary(ends[0]) && problem_.topology.is_boundary(ends[1]) ? 1 : kSlope;
+}
+
+/// Whether what was measured at the quarters of a line tells whether it is near.
+bool SurfaceLimit::is_settled(double distance, double slope, double length) const {
+  const bool same = distance <= kSame * allowed_ && slope < 1;
+  return distance > allowed_ || same || distance + slope * length / 8 <= allowed_;
+}
+
 void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
   const Vec3& a = x[edge.vertices[0]];
   const Vec3& b = x[edge.vertices[1]];
@@ -140,11 +151,11 @@ void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
     if (distance > edge.distance) edge.distance = distance, edge.share = share;
   };
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) look(share);
-  const double slack = kSlope * (b - a).norm();
-  if (edge.distance > allowed_ || edge.distance <= kSame * allowed_) return;
-  if (edge.distance + slack / 8 <= allowed_) return;
+  const double slope = slope_along(edge.vertices);
+  if (is_settled(edge.distance, slope, (b - a).norm())) return;
   for (const double share : {0.125, 0.375, 0.625, 0.875}) look(share);
-  if (edge.distance + slack / 16 > allowed_) refine(distance_at, 0.0625, edge.share, edge.distance, allowed_);
+  if (edge.distance + slope * (b - a).norm() / 16 > allowed_)
+    refine(distance_at, 0.0625, edge.share, edge.distance, allowed_);
 }
 
 /// A bound on the distance of a point of then, which is measured where the last one does not do.
@@ -166,19 +177,19 @@ SurfaceLimit::Peak SurfaceLimit::peak_of(std::span<const Vec3> x, const Line& li
     const double bound = probe(x, point_of(line, share), last);
     if (bound > peak.bound || peak.triangle == kNone) peak = {bound, share, last.triangle};
   }
-  const double slack = kSlope * line.length;
-  if (peak.bound > allowed_ || peak.bound <= kSame * allowed_) return peak;
-  if (peak.bound + slack / 8 <= allowed_) return peak;
+  const double slope = slope_along(line.ends);
+  if (is_settled(peak.bound, slope, line.length)) return peak;
   const auto distance_at = [&](double share) {
     const SurfacePoint found = walk(x, point_of(line, share), peak.triangle);
     peak.triangle = found.triangle;
     return found.distance;
   };
-  for (const double share : {0.125, 0.375, 0.625, 0.875}) {
+  for (const double share : {0.0, 0.125, 0.375, 0.625, 0.875, 1.0}) {
     const double distance = distance_at(share);
     if (distance > peak.bound) peak.bound = distance, peak.share = share;
   }
-  if (peak.bound + slack / 16 > allowed_) refine(distance_at, 0.0625, peak.share, peak.bound, allowed_);
+  if (peak.bound + slope * line.length / 16 > allowed_)
+    refine(distance_at, 0.0625, peak.share, peak.bound, allowed_);
   return peak;
 }
 
@@ -241,12 +252,17 @@ void SurfaceLimit::note_moves(std::span<const Vec3> x) {
   ++call_;
   for (std::size_t v = 0; v < x.size(); ++v)
     if (x[v] != last_[v]) moved_[v] = call_;
+  for (const auto& [a, b, c] : problem_.triangles) {
+    const std::uint32_t last = std::max({moved_[a], moved_[b], moved_[c]});
+    for (const Index v : {a, b, c}) stirred_[v] = std::max(stirred_[v], last);
+  }
   last_.assign(x.begin(), x.end());
 }
 
+/// Whether a corner of the triangle, or a neighbour of one, has moved.
 bool SurfaceLimit::has_moved_since(Index triangle, std::uint32_t call) const {
   const Triangle& t = problem_.triangles[triangle];
-  return std::any_of(t.begin(), t.end(), [&](Index v) { return moved_[v] > call; });
+  return std::any_of(t.begin(), t.end(), [&](Index v) { return stirred_[v] > call; });
 }
 
 /// Whether nothing that was near to a line has moved since.

@@ -73,6 +73,8 @@ class SurfaceLimit {
   [[nodiscard]] Corners corners_of(std::span<const Vec3> x, Index triangle) const;
   [[nodiscard]] SurfacePoint walk(std::span<const Vec3> x, const Vec3& point, Index triangle) const;
   [[nodiscard]] SurfacePoint nearest_then(const Vec3& point, Index triangle) const;
+  [[nodiscard]] double slope_along(const std::array<Index, 2>& ends) const;
+  [[nodiscard]] bool is_settled(double distance, double slope, double length) const;
   void measure(std::span<const Vec3> x, Edge& edge) const;
   [[nodiscard]] double probe(std::span<const Vec3> x, const Vec3& point, Probe& last) const;
   [[nodiscard]] Peak peak_of(std::span<const Vec3> x, const Line& line);
@@ -91,6 +93,7 @@ class SurfaceLimit {
   std::vector<std::vector<Excess>> far_;  // of each block
   std::vector<Vec3> last_;                // positions in the last call
   std::vector<std::uint32_t> moved_;      // the call before which a vertex moved last
+  std::vector<std::uint32_t> stirred_;    // the same of a vertex or its neighbours
   std::uint32_t call_ = 0;
   // For one vertex after another: the edges of each vertex, the lines whose probes are nearest to a triangle.
   std::vector<std::vector<Index>> edges_at_, lines_near_;

@@ -100,6 +100,20 @@ TEST(BoundedRun, EveryStepOfAStatedLimitKeepsIt) {
   }
 }
 
+TEST(BoundedRun, AFreeOutlineKeepsAStatedLimitToo) {
+  const TriangleMesh start = generate(ShapeKind::hexagonal_square, {.seed = 4, .triangles = 460});
+  TriangleMesh mesh = start;
+  std::size_t attempts = 0;
+  run_bounded(
+      mesh.positions, mesh.triangles, {.boundary = BoundaryRule::free},
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, {0.01},
+      {}, {}, [&](const RunPart& part, std::span<const Vec3>) { attempts += part.done == 0 ? 1 : 0; });
+  EXPECT_LE(deviation(start, mesh), 0.01);
+  EXPECT_GT(deviation(start, mesh), 0.005);
+  EXPECT_EQ(attempts, 1U);
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, measure_quality(start).mean_min_angle_deg + 10);
+}
+
 TEST(BoundedRun, ATightLimitCostsLittleQuality) {
   TriangleMesh mesh = shaken_torus();
   const auto run_within = [&](double limit) {
