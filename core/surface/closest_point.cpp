@@ -44,9 +44,10 @@ Candidate closest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = ab.cross(ac);
   const double n2 = n.squaredNorm();
   const double v = ap.cross(ac).dot(n), w = ab.cross(ap).dot(n), u = n2 - v - w;
-  for (const auto& [corner, weights] :
-       {std::pair{&a, Vec3(1, 0, 0)}, {&b, Vec3(0, 1, 0)}, {&c, Vec3(0, 0, 1)}})
-    if (p == *corner) return {weights, p, 0};  // a vertex is at distance zero, not at rounding error
+  // A vertex is at distance zero, not at rounding error.
+  if (p == a) return {{1, 0, 0}, p, 0};
+  if (p == b) return {{0, 1, 0}, p, 0};
+  if (p == c) return {{0, 0, 1}, p, 0};
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   // The rule of has_no_area, squared; where that underflows, the edges are all there is, too.
   const bool flat = !(n2 > 4 * kDegenerateArea * kDegenerateArea * longest2 * longest2);

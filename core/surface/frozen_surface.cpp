@@ -6,6 +6,7 @@
 #include "mesh/parallel.h"
 #include "surface/feature_edges.h"
 #include "surface/fit_samples.h"
+#include "surface/walk.h"
 
 namespace isorelax {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kPlanar = 5e-5;
 /// the triangles about it; noise may not make much more of it.
 constexpr double kLargestLift = 0.4;
 constexpr int kCorrections = 2;
-constexpr int kMaxWalk = 1000;
 
 Vec3 unit(const Vec3& v) {
   const double length = v.norm();
@@ -181,27 +181,10 @@ SurfacePoint FrozenSurface::foot(const Vec3& point, Index triangle) const {
   return found;
 }
 
-/// From triangle to triangle as long as that comes nearer: over the edge or about the vertex that the closest
-/// point lies on.
 SurfacePoint FrozenSurface::walk(const Vec3& point, Index triangle) const {
-  SurfacePoint best = foot(point, triangle);
-  const auto look_at = [&](Index other, SurfacePoint& nearest) {
-    const SurfacePoint found = foot(point, other);
-    if (found.distance < nearest.distance) nearest = found;
-  };
-  for (int step = 0; step < kMaxWalk; ++step) {
-    SurfacePoint nearest = best;
-    for (unsigned k = 0; k < 3; ++k) {
-      if (best.barycentric[k] == 1) {
-        for (const Corner c : faces_.corners(faces_.of(3 * best.triangle + k))) look_at(c / 3, nearest);
-      } else if (best.barycentric[k] == 0 && opposite_[3 * best.triangle + k] != kNone) {
-        look_at(opposite_[3 * best.triangle + k] / 3, nearest);
-      }
-    }
-    if (nearest.triangle == best.triangle) break;
-    best = nearest;
-  }
-  return best;
+  return walk_nearer(
+      foot(point, triangle), [&](Index t) { return foot(point, t); }, [&](Corner c) { return opposite_[c]; },
+      [&](Corner c) { return faces_.corners(faces_.of(c)); });
 }
 
 FrozenSurface::Lifted FrozenSurface::lift(const SurfacePoint& foot) const {
