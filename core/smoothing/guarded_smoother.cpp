@@ -14,6 +14,7 @@ namespace {
 /// which the energy rose are cut back; then the vertices of every triangle that got worse; at last those are
 /// stopped.
 constexpr unsigned kAlikeRounds = 4;
+constexpr unsigned kAlikeRoundsAtLimit = 2;
 constexpr unsigned kLocalRounds = 6;
 constexpr unsigned kTriangleRounds = 4;
 
@@ -58,6 +59,7 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   record.after = there_.evaluate(trial_.to());
   if (guard_ == StepGuard::folds_and_energy) guard_energy(record);
   there_.mark(trial_.to());
+  last_energy_rounds_ = record.energy_passes;
   finish(record);
 }
 
@@ -101,7 +103,9 @@ void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord&
 /// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,
 /// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
-  const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
+  const bool at_limit =
+      std::ranges::any_of(record.limits, [](auto limits) { return (limits & kLimitSurface) != 0; });
+  const unsigned local = cuts_all_alike() ? (at_limit ? kAlikeRoundsAtLimit : kAlikeRounds) : 0;
   for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
     ++record.energy_passes;
     begin_pass(record, kLimitEnergy);

@@ -31,6 +31,8 @@ class GuardedSmoother : public Smoother {
 
   /// Whether the positions of this step are those to which the step before led.
   [[nodiscard]] bool continues() const { return continues_; }
+  /// Rounds that the step before took against a rising energy.
+  [[nodiscard]] unsigned last_energy_rounds() const { return last_energy_rounds_; }
 
   /// Sets the proposed move of a vertex: none, and a note in the record, where it is not worth making.
   void set_move(StepRecord& record, Index vertex, const Vec3& move) const;
@@ -49,6 +51,7 @@ class GuardedSmoother : public Smoother {
   RecordDetail detail_;
   StepGuard guard_;
   bool continues_ = false;
+  unsigned last_energy_rounds_ = 0;
   Objective here_, there_;  // at the step's positions, and at the last trial
   Trial trial_;
   FoldControl fold_;

@@ -12,6 +12,8 @@ constexpr double kUseless = 0.02;
 /// Share of its proposed move that a vertex must have made, relative to the vertex that made most of its own,
 /// to be moved together with all others again.
 constexpr double kBlockedShare = 0.3;
+/// Rounds against a rising energy after which what is remembered does not fit, either.
+constexpr unsigned kMostEnergyRounds = 2;
 /// Steps after which the second level of the preconditioner is made anew, and the Newton blocks too where no
 /// tangent space changes.
 constexpr unsigned kPreconditionerSteps = 10;
@@ -52,6 +54,7 @@ class LbfgsSmoother : public GuardedSmoother {
     if (steps_++ % kPreconditionerSteps == 0) coarse_->refresh(here, blocks_);
     find_blocked(positions);
     memory_.arrive(positions, tangent_, wanted_, kUseless * proposed_);
+    if (continues() && last_energy_rounds() > kMostEnergyRounds) memory_.clear();
     find_direction(record);
     finish_proposal(record);
     last_.assign(positions.begin(), positions.end());
