@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -18,6 +19,7 @@ namespace {
 constexpr double kStageTolerance = 1e-4;
 /// Nor need a run that only finds out what is to be held.
 constexpr double kTryTolerance = 1e-3;
+constexpr auto kSurfaceBit = static_cast<std::size_t>(std::countr_zero(unsigned{kLimitSurface}));
 
 /// Three digits of a number.
 std::string short_text(double value) {
@@ -147,8 +149,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const double limit = attempts.limit.max ? *attempts.limit.max : automatic_limit(original, unheld, options);
   const SurfaceWatch watch(surface, original, unheld, limit);
   SurfaceHolds holds = options.holds;
-  // A limit that somebody states is mostly needed: every step keeps it from the start.
-  if (attempts.limit.max && std::isfinite(limit)) watch.keep_all_near(holds);
+  holds.distance = watch.largest_distance();
   // The first attempt mostly is the last. After one that was not, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
@@ -159,10 +160,12 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
                                    trying ? std::nullopt : attempts.polish);
     const SurfaceWatch::Finding found = watch.look(positions);
     result.deviation_limit = limit;
-    if (!attempts.limit.max && !holds.near.empty())
-      result.notes.push_back(
-          "the surface is kept near where it was about " + std::to_string(holds.near.size()) +
-          " vertices: they would have led farther than --max-deviation, here " + short_text(limit));
+    const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
+    if (!attempts.limit.max && at_limit > 0) {
+      result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
+                             " at --max-deviation, here " + short_text(limit) +
+                             ": they would have led farther from the input");
+    }
     result.deviation = found.deviation;
     const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;

@@ -66,11 +66,11 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
                                 const StepObserver& observer = {},
                                 const std::function<void(unsigned done, double exponent)>& on_stage = {});
 
-/// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. A limit
-/// that is stated is kept by every step (SurfaceLimit). Where the result is farther than the automatic limit
-/// allows, the run is done again from the start with steps that keep the surface near there; where that was
-/// not enough, nearer, and at last vertices are held still: in the end the limit holds, if with everything
-/// held. So it goes where a triangle lies upside down (inverted_triangles) that did not before. Where no
+/// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. Every step
+/// keeps the limit (SurfaceLimit). Should the result be farther all the same, the run is done again from the
+/// start with steps that keep the surface nearer, and at last with vertices held still: in the end the limit
+/// holds, if with everything held. So it goes where a triangle lies upside down (inverted_triangles) that did
+/// not before. Where no
 /// exponent is asked for, it is 2, or 1 where that would lower the mean of the triangles' smallest angles.
 /// Throws as make_problem.
 ///

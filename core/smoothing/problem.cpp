@@ -343,11 +343,9 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
   bool can_leave = !problem.plane_normal;
   for (Index v = 0; v < problem.vertex_count() && !can_leave; ++v)
     can_leave = problem.topology.is_boundary(v) && problem.mobility[v] != Mobility::none;
-  if (!holds.near.empty() && can_leave) {
+  if (std::isfinite(holds.distance) && can_leave) {
     NearSurface& near = problem.near.emplace();
     near.distance = holds.distance;
-    near.kept.assign(positions.size(), 0);
-    for (const Index v : holds.near) near.kept[v] = 1;
     near.positions.assign(positions.begin(), positions.end());
     near.surface = std::make_shared<ClosestPointIndex>(positions, problem.triangles);
   }

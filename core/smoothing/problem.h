@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,9 +67,8 @@ inline constexpr double kDefaultExponent = 2;
 /// What a run found it must hold, to stay near the surface and keep it unfolded.
 struct SurfaceHolds {
   std::vector<Index> still;  ///< vertices that stay where they are
-  /// Vertices about which the surface goes no farther than `distance` from where it is; they may slide.
-  std::vector<Index> near;
-  double distance = 0;  ///< length units
+  /// In no step does the surface go farther than this from where it is; length units.
+  double distance = std::numeric_limits<double>::infinity();
 
   bool operator==(const SurfaceHolds&) const = default;
 };
@@ -95,10 +95,9 @@ struct ProblemOptions {
 /// How far a vertex may move: the dimension of its tangent space.
 enum class Mobility : std::uint8_t { none, line, plane };
 
-/// The surface as it was, and where it has to stay near.
+/// The surface as it was, that the mesh has to stay near.
 struct NearSurface {
   double distance = 0;                               ///< length units
-  std::vector<std::uint8_t> kept;                    ///< per vertex: SurfaceHolds::near
   std::vector<Vec3> positions;                       ///< as they were
   std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles
 };

@@ -4,213 +4,191 @@
 #include <cmath>
 
 #include "mesh/parallel.h"
+#include "surface/walk.h"
 
 namespace isorelax {
 namespace {
 
-/// Share of the largest distance that may be measured: elsewhere a surface may be a little farther.
-constexpr double kMeasured = 0.97;
-/// What is left to the limit is counted a little short, for rounding.
-constexpr double kRounding = 1e-9;
-/// Distances along a line have kinks where it crosses edges of the other surface, and one of those is the
-/// farthest point. It is measured at quarters; at eighths where between quarters it could be too far, if the
-/// surfaces make no larger an angle than one with this sine (outlines may make any); and likewise about the
-/// farthest at smaller and smaller distances.
-constexpr double kSlope = 0.25;
-/// Share of the limit up to which quarters tell that the surfaces are the same there.
-constexpr double kSame = 0.01;
-constexpr unsigned kHalvings = 4;
-constexpr int kMaxWalk = 1000;
+/// Share of the largest distance that may be seen: what is between that and the bound decides how often edges
+/// have to be divided.
+constexpr double kSeen = 0.98;
+/// Share that may be proven: the rest is for rounding.
+constexpr double kProven = 1 - 1e-9;
+/// An edge is divided that often at most, and not too near to an end.
+constexpr unsigned kDivisions = 8;
+constexpr double kLeastPart = 0.1;
 /// Share of a vertex' move that counts at a point from which on it is to blame.
 constexpr double kLeastWeight = 0.05;
 
-/// Whether what was so far away is near for sure when it moved by no more than that.
-bool is_near_still(double distance, double moved2, double allowed) {
-  if (moved2 == 0) return distance <= allowed;
-  const double left = (1 - kRounding) * allowed - distance;
-  return left > 0 && moved2 < left * left;
-}
-
-/// Looks about the farthest point of a line that was seen, at finer and finer steps. `look` tells the
-/// distance at a share of the line.
-template <typename Look>
-void refine(const Look& look, double step, double& share, double& distance, double allowed) {
-  for (unsigned i = 0; i < kHalvings && distance <= allowed; ++i, step *= 0.5) {
-    for (const double there : {std::max(0.0, share - step), std::min(1.0, share + step)}) {
-      const double found = look(there);
-      if (found <= distance) continue;
-      distance = found;
-      share = there;
-      break;
-    }
-  }
-}
-
 }  // namespace
 
-SurfaceLimit::SurfaceLimit(const SmoothingProblem& problem) : problem_(problem) {
-  if (!problem.near) return;
-  const NearSurface& near = *problem.near;
-  const Topology& topology = problem.topology;
-  allowed_ = kMeasured * near.distance;
+/// Not before it is needed: of the solvers of a run, some never step.
+void SurfaceLimit::prepare() {
+  if (!lines_.empty()) return;
+  const NearSurface& near = *problem_.near;
+  const Topology& topology = problem_.topology;
+  seen_ = kSeen * near.distance;
+  proven_ = kProven * near.distance;
   last_ = near.positions;
-  moved_.assign(last_.size(), 0);
-  stirred_ = moved_;
-  const auto add_line = [&](const std::array<Index, 2>& ends, Index triangle, std::uint32_t probes) {
-    const double length = (near.positions[ends[1]] - near.positions[ends[0]]).norm();
-    lines_.push_back(
-        {ends, static_cast<std::uint32_t>(probes_.size()), probes, length, {0, 0.5, triangle}, 0});
-    probes_.insert(probes_.end(), probes, {triangle, corners_of(near.positions, triangle), 0});
-  };
-  for (Index v = 0; v < problem.vertex_count(); ++v) {
-    const auto corners = topology.corners_of(v);
-    if (near.kept[v] != 0 && !corners.empty()) add_line({v, v}, corners[0] / 3, 1);
-  }
-  for (Corner c = 0; c < 3 * problem.triangle_count(); ++c) {
+  travelled_.assign(last_.size(), 0);
+  moves_.assign(last_.size(), 0);
+  std::vector<std::uint8_t> is_end(last_.size(), 0);
+  for (Corner c = 0; c < 3 * problem_.triangle_count(); ++c) {
     if (topology.opposite(c) != kNone && topology.opposite(c) < c) continue;
-    const Triangle& t = problem.triangles[c / 3];
+    const Triangle& t = problem_.triangles[c / 3];
     const std::array<Index, 2> ends = {t[next(c % 3)], t[previous(c % 3)]};
-    if (near.kept[ends[0]] == 0 && near.kept[ends[1]] == 0) continue;
-    edges_.push_back({ends, {near.positions[ends[0]], near.positions[ends[1]]}, 0, 0, c / 3});
-    add_line(ends, c / 3, 3);
+    // In a plane only the outline can be far from where it was.
+    if (problem_.plane_normal && !topology.is_boundary(ends[0]) && !topology.is_boundary(ends[1])) continue;
+    edges_.push_back(ends);
+    for (const Index v : ends) is_end[v] = 1;
   }
+  feet_now_.resize(last_.size());
+  for (Index v = 0; v < last_.size(); ++v) {
+    if (is_end[v] == 0) continue;
+    ends_.push_back(v);
+    feet_now_[v] = {topology.corners_of(v)[0] / 3, 0};
+  }
+  feet_then_ = feet_now_;
+  lines_.assign(2 * edges_.size(), {INFINITY, {}, {}});
 }
 
-SurfaceLimit::Corners SurfaceLimit::corners_of(std::span<const Vec3> x, Index triangle) const {
+const std::array<Index, 2>& SurfaceLimit::ends_of(std::size_t line) const {
+  return edges_[is_of_now(line) ? line : line - edges_.size()];
+}
+
+SurfaceLimit::View SurfaceLimit::view_of(std::size_t line, std::span<const Vec3> x) const {
+  const std::span<const Vec3> then = problem_.near->positions;
+  const auto& [a, b] = ends_of(line);
+  if (is_of_now(line)) return {true, x[a], x[b], then};
+  return {false, then[a], then[b], x};
+}
+
+SurfacePoint SurfaceLimit::closest_of(std::span<const Vec3> surface, const Vec3& point,
+                                      Index triangle) const {
   const auto& [a, b, c] = problem_.triangles[triangle];
-  return {x[a], x[b], x[c]};
+  SurfacePoint found = closest_point_of_triangle(point, surface[a], surface[b], surface[c]);
+  found.triangle = triangle;
+  return found;
 }
 
-Vec3 SurfaceLimit::point_of(const Line& line, double share) const {
-  const std::vector<Vec3>& then = problem_.near->positions;
-  return (1 - share) * then[line.ends[0]] + share * then[line.ends[1]];
-}
-
-/// From triangle to triangle as long as that comes nearer: over the edge or about the vertex that the closest
-/// point lies on.
-SurfacePoint SurfaceLimit::walk(std::span<const Vec3> x, const Vec3& point, Index triangle) const {
-  const auto foot = [&](Index t) {
-    const Corners y = corners_of(x, t);
-    SurfacePoint found = closest_point_of_triangle(point, y[0], y[1], y[2]);
-    found.triangle = t;
-    return found;
+/// A walk mostly ends at the closest point of all. Where it leads too far, as on the wrong side of a ridge,
+/// that is looked for: in the index of the surface as it was, or farther about.
+SurfacePoint SurfaceLimit::nearest(const View& view, const Vec3& point, Index triangle) const {
+  const Topology& topology = problem_.topology;
+  const auto foot = [&](Index t) { return closest_of(view.surface, point, t); };
+  const auto about = [&](Corner c) { return topology.corners_of(problem_.triangles[c / 3][c % 3]); };
+  const auto walk_from = [&](const SurfacePoint& start) {
+    return walk_nearer(
+        start, foot, [&](Corner c) { return topology.opposite(c); }, about);
   };
-  SurfacePoint best = foot(triangle);
-  for (int step = 0; step < kMaxWalk; ++step) {
-    SurfacePoint nearest = best;
-    const auto look_at = [&](Index t) {
-      const SurfacePoint found = foot(t);
-      if (found.distance < nearest.distance) nearest = found;
-    };
+  SurfacePoint found = walk_from(foot(triangle));
+  if (found.distance > seen_ && view.now) return problem_.near->surface->closest(point, found.triangle);
+  while (found.distance > seen_) {
+    SurfacePoint nearer = found;
     for (unsigned k = 0; k < 3; ++k) {
-      const Corner opposite = problem_.topology.opposite(3 * best.triangle + k);
-      if (best.barycentric[k] == 1) {
-        for (const Corner c : problem_.topology.corners_of(problem_.triangles[best.triangle][k]))
-          look_at(c / 3);
-      } else if (best.barycentric[k] == 0 && opposite != kNone) {
-        look_at(opposite / 3);
+      for (const Corner c : about(3 * found.triangle + k)) {
+        const SurfacePoint other = foot(c / 3);
+        if (other.distance < nearer.distance) nearer = other;
       }
     }
-    if (nearest.triangle == best.triangle) break;
-    best = nearest;
+    if (nearer.triangle == found.triangle) break;
+    found = walk_from(nearer);
   }
-  return best;
+  return found;
 }
 
-/// A walk mostly ends at the closest point of all; where it leads too far, that is looked for.
-SurfacePoint SurfaceLimit::nearest_then(const Vec3& point, Index triangle) const {
-  const SurfacePoint found = walk(problem_.near->positions, point, triangle);
-  return found.distance <= allowed_ ? found : problem_.near->surface->closest(point, found.triangle);
+SurfaceLimit::Foot SurfaceLimit::foot_of(bool now, std::span<const Vec3> x, Index vertex) const {
+  const std::span<const Vec3> then = problem_.near->positions;
+  const Vec3& point = now ? x[vertex] : then[vertex];
+  const SurfacePoint found =
+      nearest({now, point, point, now ? then : x}, point, (now ? feet_now_ : feet_then_)[vertex].triangle);
+  return {found.triangle, found.distance};
 }
 
-double SurfaceLimit::slope_along(const std::array<Index, 2>& ends) const {
-  return problem_.topology.is_boundary(ends[0]) && problem_.topology.is_boundary(ends[1]) ? 1 : kSlope;
+void SurfaceLimit::note_use(Line& line, Index vertex) const {
+  if (std::ranges::none_of(line.uses, [&](const Use& use) { return use.vertex == vertex; }))
+    line.uses.push_back({vertex, travelled_[vertex]});
 }
 
-/// Whether what was measured at the quarters of a line tells whether it is near.
-bool SurfaceLimit::is_settled(double distance, double slope, double length) const {
-  const bool same = distance <= kSame * allowed_ && slope < 1;
-  return distance > allowed_ || same || distance + slope * length / 8 <= allowed_;
+/// Moving a triangle or an end moves no distance by more than that.
+bool SurfaceLimit::is_near_still(const Line& line) const {
+  const double left = proven_ - line.bound;
+  return left >= 0 && std::ranges::all_of(line.uses, [&](const Use& use) {
+           return travelled_[use.vertex] - use.travelled <= left;
+         });
 }
 
-void SurfaceLimit::measure(std::span<const Vec3> x, Edge& edge) const {
-  const Vec3& a = x[edge.vertices[0]];
-  const Vec3& b = x[edge.vertices[1]];
-  const double moved2 = std::max((a - edge.ends[0]).squaredNorm(), (b - edge.ends[1]).squaredNorm());
-  if (is_near_still(edge.distance, moved2, allowed_)) return;
-  edge.ends = {a, b};
-  edge.distance = 0;
-  edge.share = 0.5;
-  const auto distance_at = [&](double share) {
-    const SurfacePoint found = nearest_then((1 - share) * a + share * b, edge.near);
-    edge.near = found.triangle;
-    return found.distance;
-  };
-  const auto look = [&](double share) {
-    const double distance = distance_at(share);
-    if (distance > edge.distance) edge.distance = distance, edge.share = share;
-  };
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) look(share);
-  const double slope = slope_along(edge.vertices);
-  if (is_settled(edge.distance, slope, (b - a).norm())) return;
-  for (const double share : {0.125, 0.375, 0.625, 0.875}) look(share);
-  if (edge.distance + slope * (b - a).norm() / 16 > allowed_)
-    refine(distance_at, 0.0625, edge.share, edge.distance, allowed_);
+/// The larger of the distances between two samples cannot exceed: what the triangles nearest to both allow,
+/// and the share of the way between them where that is.
+SurfaceLimit::Sample SurfaceLimit::bound_between(const View& view, const Sample& a, const Sample& b) const {
+  const auto [near_a, at_a] = a.foot;
+  const auto [near_b, at_b] = b.foot;
+  const Sample ends = at_a < at_b ? Sample{1, b.foot} : Sample{0, a.foot};
+  if (near_a == near_b) return ends;
+  const double a_at_b = closest_of(view.surface, view.at(b.share), near_a).distance;
+  const double b_at_a = closest_of(view.surface, view.at(a.share), near_b).distance;
+  const double left = b_at_a - at_a;
+  const double right = a_at_b - at_b;
+  if (!(left > 0 && right > 0)) return ends;
+  // Along the way one bound goes from at_a to a_at_b, the other from b_at_a to at_b.
+  const double share = left / (left + right);
+  const double crossing = at_a + share * (a_at_b - at_a);
+  return crossing > ends.foot.distance ? Sample{share, {near_a, crossing}} : ends;
 }
 
-/// A bound on the distance of a point of then, which is measured where the last one does not do.
-double SurfaceLimit::probe(std::span<const Vec3> x, const Vec3& point, Probe& last) const {
-  const Corners here = corners_of(x, last.triangle);
-  double moved2 = 0;
-  for (unsigned k = 0; k < 3; ++k) moved2 = std::max(moved2, (here[k] - last.corners[k]).squaredNorm());
-  if (is_near_still(last.distance, moved2, allowed_)) return last.distance + std::sqrt(moved2);
-  const SurfacePoint found = walk(x, point, last.triangle);
-  last = {found.triangle, corners_of(x, found.triangle), found.distance};
-  return found.distance;
-}
-
-SurfaceLimit::Peak SurfaceLimit::peak_of(std::span<const Vec3> x, const Line& line) {
-  Peak peak;
-  for (std::uint32_t i = 0; i < line.probes; ++i) {
-    const double share = (i + 1.0) / (line.probes + 1.0);
-    Probe& last = probes_[line.first_probe + i];
-    const double bound = probe(x, point_of(line, share), last);
-    if (bound > peak.bound || peak.triangle == kNone) peak = {bound, share, last.triangle};
+bool SurfaceLimit::is_near(const View& view, const Sample& a, const Sample& b, unsigned divisions,
+                           Line& line) const {
+  const Sample most = bound_between(view, a, b);
+  if (most.foot.distance <= proven_) {
+    line.bound = std::max(line.bound, most.foot.distance);
+    if (!view.now) {
+      for (const Index t : {a.foot.triangle, b.foot.triangle})
+        for (const Index v : problem_.triangles[t]) note_use(line, v);
+    }
+    return true;
   }
-  const double slope = slope_along(line.ends);
-  if (is_settled(peak.bound, slope, line.length)) return peak;
-  const auto distance_at = [&](double share) {
-    const SurfacePoint found = walk(x, point_of(line, share), peak.triangle);
-    peak.triangle = found.triangle;
-    return found.distance;
-  };
-  for (const double share : {0.0, 0.125, 0.375, 0.625, 0.875, 1.0}) {
-    const double distance = distance_at(share);
-    if (distance > peak.bound) peak.bound = distance, peak.share = share;
-  }
-  if (peak.bound + slope * line.length / 16 > allowed_)
-    refine(distance_at, 0.0625, peak.share, peak.bound, allowed_);
-  return peak;
+  if (divisions == 0) return false;
+  const double part = std::clamp(most.share, kLeastPart, 1 - kLeastPart);
+  const double share = a.share + part * (b.share - a.share);
+  const SurfacePoint found = nearest(view, view.at(share), a.foot.triangle);
+  const Sample between{share, {found.triangle, found.distance}};
+  if (found.distance > line.peak.foot.distance) line.peak = between;
+  return found.distance <= seen_ && is_near(view, a, between, divisions - 1, line) &&
+         is_near(view, between, b, divisions - 1, line);
 }
 
-void SurfaceLimit::blame_edge(const Edge& edge, std::span<const Vec3> x, Blame blame,
-                              std::vector<Excess>& to) const {
+void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::array<Foot, 2>& ends) {
+  Line& line = lines_[id];
+  const View view = view_of(id, x);
+  const Sample a{0, ends[0]};
+  const Sample b{1, ends[1]};
+  line.bound = 0;
+  line.uses.clear();
+  line.peak = a.foot.distance < b.foot.distance ? b : a;
+  if (view.now) {
+    for (const Index v : ends_of(id)) note_use(line, v);
+  }
+  if (line.peak.foot.distance > seen_ || !is_near(view, a, b, kDivisions, line)) line.bound = INFINITY;
+}
+
+void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blame,
+                             std::vector<Excess>& to) const {
+  const View view = view_of(id, x);
+  const auto& [share, foot] = lines_[id].peak;
+  const Vec3 point = view.at(share);
+  const SurfacePoint found = nearest(view, point, foot.triangle);
+  const Vec3 outwards = (view.now ? point - found.point : found.point - point).stableNormalized();
   const double least = blame == Blame::all ? 0 : kLeastWeight;
-  const Vec3 point = (1 - edge.share) * x[edge.vertices[0]] + edge.share * x[edge.vertices[1]];
-  const Vec3 outwards = (point - nearest_then(point, edge.near).point).stableNormalized();
-  if (1 - edge.share >= least) to.push_back({edge.vertices[0], outwards});
-  if (edge.share >= least) to.push_back({edge.vertices[1], outwards});
-}
-
-void SurfaceLimit::blame_about(const Line& line, const Peak& peak, std::span<const Vec3> x, Blame blame,
-                               std::vector<Excess>& to) const {
-  const Vec3 point = point_of(line, peak.share);
-  const SurfacePoint found = walk(x, point, peak.triangle);
-  const Vec3 outwards = (found.point - point).stableNormalized();
+  if (view.now) {
+    const auto& [a, b] = ends_of(id);
+    if (1 - share >= least) to.push_back({a, outwards});
+    if (share >= least) to.push_back({b, outwards});
+    return;
+  }
   for (unsigned k = 0; k < 3; ++k) {
     const Index v = problem_.triangles[found.triangle][k];
     if (blame == Blame::movers) {
-      if (found.barycentric[k] >= kLeastWeight) to.push_back({v, outwards});
+      if (found.barycentric[k] >= least) to.push_back({v, outwards});
       continue;
     }
     for (const Corner c : problem_.topology.corners_of(v))
@@ -218,101 +196,86 @@ void SurfaceLimit::blame_about(const Line& line, const Peak& peak, std::span<con
   }
 }
 
+void SurfaceLimit::note_moves(std::span<const Vec3> x) {
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    moves_[v] = x[v] != last_[v] ? 1 : 0;
+    if (moves_[v] != 0) travelled_[v] += (x[v] - last_[v]).norm();
+  }
+  last_.assign(x.begin(), x.end());
+}
+
 std::vector<SurfaceLimit::Excess> SurfaceLimit::too_far(std::span<const Vec3> x, Blame blame) {
-  std::vector<Excess> all;
-  if (!problem_.near) return all;
-  const auto collect = [&](std::size_t count, const auto& check) {
-    far_.resize(block_count(count));
-    parallel_for_blocks(count, problem_.threads, [&](std::size_t begin, std::size_t end) {
-      std::vector<Excess>& far = far_[begin / kBlockSize];
-      far.clear();
-      for (std::size_t i = begin; i < end; ++i) check(i, far);
-    });
-    for (const auto& far : far_) all.insert(all.end(), far.begin(), far.end());
-  };
-  collect(edges_.size(), [&](std::size_t i, std::vector<Excess>& far) {
-    measure(x, edges_[i]);
-    if (edges_[i].distance > allowed_) blame_edge(edges_[i], x, blame, far);
-  });
+  if (!problem_.near) return {};
+  prepare();
   note_moves(x);
-  collect(lines_.size(), [&](std::size_t i, std::vector<Excess>& far) {
-    Line& line = lines_[i];
-    if (!is_as_measured(line)) {
-      line.peak = peak_of(x, line);
-      line.measured = call_;
+  const auto moves = [&](Index v) { return moves_[v] != 0; };
+  parallel_for_blocks(ends_.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index v = ends_[i];
+      if (moves(v)) feet_now_[v] = foot_of(true, x, v);
+      if (std::ranges::any_of(problem_.triangles[feet_then_[v].triangle], moves))
+        feet_then_[v] = foot_of(false, x, v);
     }
-    if (line.peak.bound > allowed_) blame_about(line, line.peak, x, blame, far);
   });
+  far_.resize(block_count(lines_.size()));
+  parallel_for_blocks(lines_.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<Excess>& far = far_[begin / kBlockSize];
+    far.clear();
+    for (std::size_t id = begin; id < end; ++id) {
+      if (is_near_still(lines_[id])) continue;
+      const auto& feet = is_of_now(id) ? feet_now_ : feet_then_;
+      measure(id, x, {feet[ends_of(id)[0]], feet[ends_of(id)[1]]});
+      if (lines_[id].bound > proven_) blame_for(id, x, blame, far);
+    }
+  });
+  std::vector<Excess> all;
+  for (const auto& far : far_) all.insert(all.end(), far.begin(), far.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const Excess& a, const Excess& b) { return a.vertex < b.vertex; });
   return all;
 }
 
-void SurfaceLimit::note_moves(std::span<const Vec3> x) {
-  ++call_;
-  for (std::size_t v = 0; v < x.size(); ++v)
-    if (x[v] != last_[v]) moved_[v] = call_;
-  for (const auto& [a, b, c] : problem_.triangles) {
-    const std::uint32_t last = std::max({moved_[a], moved_[b], moved_[c]});
-    for (const Index v : {a, b, c}) stirred_[v] = std::max(stirred_[v], last);
-  }
-  last_.assign(x.begin(), x.end());
-}
-
-/// Whether a corner of the triangle, or a neighbour of one, has moved.
-bool SurfaceLimit::has_moved_since(Index triangle, std::uint32_t call) const {
-  const Triangle& t = problem_.triangles[triangle];
-  return std::any_of(t.begin(), t.end(), [&](Index v) { return stirred_[v] > call; });
-}
-
-/// Whether nothing that was near to a line has moved since.
-bool SurfaceLimit::is_as_measured(const Line& line) const {
-  if (has_moved_since(line.peak.triangle, line.measured)) return false;
-  for (std::uint32_t i = 0; i < line.probes; ++i)
-    if (has_moved_since(probes_[line.first_probe + i].triangle, line.measured)) return false;
-  return true;
-}
-
 void SurfaceLimit::start(std::span<const Vec3> x) {
   if (!problem_.near) return;
-  edges_at_.assign(problem_.vertex_count(), {});
-  for (Index e = 0; e < edges_.size(); ++e)
-    for (const Index v : edges_[e].vertices) edges_at_[v].push_back(e);
-  lines_near_.assign(problem_.triangle_count(), {});
-  for (Index i = 0; i < lines_.size(); ++i) {
-    static_cast<void>(peak_of(x, lines_[i]));
-    for (std::uint32_t k = 0; k < lines_[i].probes; ++k)
-      lines_near_[probes_[lines_[i].first_probe + k].triangle].push_back(i);
+  static_cast<void>(too_far(x, Blame::movers));
+  lines_of_.assign(problem_.vertex_count(), {});
+  for (Index id = 0; id < lines_.size(); ++id) {
+    for (const Use& use : lines_[id].uses) lines_of_[use.vertex].push_back(id);
   }
 }
 
 bool SurfaceLimit::keeps(std::span<const Vec3> x, Index vertex) {
   if (!problem_.near) return true;
-  for (const Index e : edges_at_[vertex]) {
-    measure(x, edges_[e]);
-    if (edges_[e].distance > allowed_) return false;
-  }
-  std::vector<Index> concerned;
-  for (const Corner c : problem_.topology.corners_of(vertex))
-    concerned.insert(concerned.end(), lines_near_[c / 3].begin(), lines_near_[c / 3].end());
-  std::sort(concerned.begin(), concerned.end());
-  concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
-  std::vector<Probe> before;
+  const double travelled = travelled_[vertex];
+  const Foot foot = feet_now_[vertex];
+  travelled_[vertex] += (x[vertex] - last_[vertex]).norm();
+  if (foot.triangle != kNone) feet_now_[vertex] = foot_of(true, x, vertex);
+  std::vector<std::pair<Index, Line>> before;
   bool kept = true;
-  for (const Index i : concerned) {
-    const auto first = probes_.begin() + lines_[i].first_probe;
-    before.insert(before.end(), first, first + lines_[i].probes);
-    kept = kept && peak_of(x, lines_[i]).bound <= allowed_;
+  for (const Index id : lines_of_[vertex]) {
+    if (is_near_still(lines_[id])) continue;
+    before.emplace_back(id, lines_[id]);
+    const auto& [a, b] = ends_of(id);
+    measure(id, x,
+            is_of_now(id) ? std::array{feet_now_[a], feet_now_[b]}
+                          : std::array{foot_of(false, x, a), foot_of(false, x, b)});
+    kept = lines_[id].bound <= proven_;
+    if (!kept) break;
   }
-  auto old = before.begin();
-  for (const Index i : concerned) {
-    for (std::uint32_t k = 0; k < lines_[i].probes; ++k, ++old) {
-      Probe& now = probes_[lines_[i].first_probe + k];
-      if (!kept) now = *old;
-      if (now.triangle != old->triangle) lines_near_[now.triangle].push_back(i);
+  if (!kept) {
+    for (auto& [id, line] : before) lines_[id] = std::move(line);
+    feet_now_[vertex] = foot;
+    travelled_[vertex] = travelled;
+    return false;
+  }
+  last_[vertex] = x[vertex];
+  for (const auto& [id, line] : before) {
+    for (const Use& use : lines_[id].uses) {
+      std::vector<Index>& lines = lines_of_[use.vertex];
+      if (std::ranges::find(lines, id) == lines.end()) lines.push_back(id);
     }
   }
-  return kept;
+  return true;
 }
 
 }  // namespace isorelax

@@ -11,13 +11,16 @@ namespace isorelax {
 /// way.
 ///
 /// Where two triangulations lie over each other, the largest distance between them is at a vertex of one of
-/// them or where two edges cross. Measured are the edges of now, from end to end, and the vertices and edges
-/// as they were, each by walking over the triangles of the other surface from the one that was nearest last.
-/// As long as nothing has moved by more than is left to the limit, nothing is measured anew.
+/// them or where two edges cross. So every edge of now is measured against the surface of then, and every
+/// edge of then against the surface of now, from end to end. The distance to one triangle is convex along an
+/// edge: with the triangles nearest to two of its points, the larger of two values, or where two straight
+/// lines cross, is a bound on all that lies between. Where the bound does not do, the edge is divided there.
+/// As long as nothing that a bound depends on has moved by more than is left to the limit, nothing is
+/// measured anew.
 class SurfaceLimit {
  public:
   /// Keeps a reference to the problem.
-  explicit SurfaceLimit(const SmoothingProblem& problem);
+  explicit SurfaceLimit(const SmoothingProblem& problem) : problem_(problem) {}
 
   /// Whom to blame for what is too far.
   enum class Blame : std::uint8_t {
@@ -39,64 +42,64 @@ class SurfaceLimit {
   [[nodiscard]] bool keeps(std::span<const Vec3> x, Index vertex);
 
  private:
-  using Corners = std::array<Vec3, 3>;
-  /// An edge of now.
-  struct Edge {
-    std::array<Index, 2> vertices;
-    std::array<Vec3, 2> ends;  // when it was measured
-    double distance = 0;       // the largest then
-    double share = 0;          // where, from the first end to the second
-    Index near;                // a triangle of then
-  };
-  /// What was measured at a point of then.
-  struct Probe {
-    Index triangle;   // of now, nearest to it
-    Corners corners;  // of that
+  /// The triangle nearest to a point, as far as a walk could tell.
+  struct Foot {
+    Index triangle = kNone;
     double distance = 0;
   };
-  /// The farthest point of a line.
-  struct Peak {
-    double bound = 0;
+  /// A point of a line, `share` of the way from its first end to its second.
+  struct Sample {
     double share = 0;
-    Index triangle = kNone;
+    Foot foot;
   };
-  /// A vertex of then is a line from itself to itself with one probe, an edge has three inside.
+  /// A vertex that a line's bound depends on, and how far it had travelled when that was found.
+  struct Use {
+    Index vertex;
+    double travelled;
+  };
+  /// An edge, as it is or as it was, against the other surface.
   struct Line {
-    std::array<Index, 2> ends;
-    std::uint32_t first_probe, probes;
-    double length;
-    Peak peak;                   // when it was measured
-    std::uint32_t measured = 0;  // in this call
+    double bound;           ///< on the distance of all its points when it was measured; infinite: too far
+    Sample peak;            ///< the farthest point seen then
+    std::vector<Use> uses;  ///< its ends, if it is one of now; corners of triangles of now, if one of then
+  };
+  /// What a line is measured with.
+  struct View {
+    bool now;  ///< an edge of now against the surface of then
+    Vec3 first, second;
+    std::span<const Vec3> surface;
+
+    [[nodiscard]] Vec3 at(double share) const { return (1 - share) * first + share * second; }
   };
 
-  [[nodiscard]] Vec3 point_of(const Line& line, double share) const;
-  [[nodiscard]] Corners corners_of(std::span<const Vec3> x, Index triangle) const;
-  [[nodiscard]] SurfacePoint walk(std::span<const Vec3> x, const Vec3& point, Index triangle) const;
-  [[nodiscard]] SurfacePoint nearest_then(const Vec3& point, Index triangle) const;
-  [[nodiscard]] double slope_along(const std::array<Index, 2>& ends) const;
-  [[nodiscard]] bool is_settled(double distance, double slope, double length) const;
-  void measure(std::span<const Vec3> x, Edge& edge) const;
-  [[nodiscard]] double probe(std::span<const Vec3> x, const Vec3& point, Probe& last) const;
-  [[nodiscard]] Peak peak_of(std::span<const Vec3> x, const Line& line);
+  void prepare();
+  [[nodiscard]] bool is_of_now(std::size_t line) const { return line < edges_.size(); }
+  [[nodiscard]] const std::array<Index, 2>& ends_of(std::size_t line) const;
+  [[nodiscard]] View view_of(std::size_t line, std::span<const Vec3> x) const;
+  [[nodiscard]] SurfacePoint closest_of(std::span<const Vec3> surface, const Vec3& point,
+                                        Index triangle) const;
+  [[nodiscard]] SurfacePoint nearest(const View& view, const Vec3& point, Index triangle) const;
+  [[nodiscard]] Foot foot_of(bool now, std::span<const Vec3> x, Index vertex) const;
+  [[nodiscard]] bool is_near_still(const Line& line) const;
   void note_moves(std::span<const Vec3> x);
-  [[nodiscard]] bool has_moved_since(Index triangle, std::uint32_t call) const;
-  [[nodiscard]] bool is_as_measured(const Line& line) const;
-  void blame_edge(const Edge& edge, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;
-  void blame_about(const Line& line, const Peak& peak, std::span<const Vec3> x, Blame blame,
-                   std::vector<Excess>& to) const;
+  void measure(std::size_t id, std::span<const Vec3> x, const std::array<Foot, 2>& ends);
+  [[nodiscard]] bool is_near(const View& view, const Sample& a, const Sample& b, unsigned divisions,
+                             Line& line) const;
+  [[nodiscard]] Sample bound_between(const View& view, const Sample& a, const Sample& b) const;
+  void note_use(Line& line, Index vertex) const;
+  void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;
 
   const SmoothingProblem& problem_;
-  double allowed_ = 0;
-  std::vector<Edge> edges_;
-  std::vector<Line> lines_;
-  std::vector<Probe> probes_;
-  std::vector<std::vector<Excess>> far_;  // of each block
-  std::vector<Vec3> last_;                // positions in the last call
-  std::vector<std::uint32_t> moved_;      // the call before which a vertex moved last
-  std::vector<std::uint32_t> stirred_;    // the same of a vertex or its neighbours
-  std::uint32_t call_ = 0;
-  // For one vertex after another: the edges of each vertex, the lines whose probes are nearest to a triangle.
-  std::vector<std::vector<Index>> edges_at_, lines_near_;
+  double seen_ = 0, proven_ = 0;              // the largest distances that a sample and a bound may have
+  std::vector<std::array<Index, 2>> edges_;   // that can be too far
+  std::vector<Index> ends_;                   // of edges, each once
+  std::vector<Line> lines_;                   // all edges of now, then all of then
+  std::vector<Foot> feet_now_, feet_then_;    // of the ends, by vertex
+  std::vector<Vec3> last_;                    // positions in the last call
+  std::vector<double> travelled_;             // by each vertex, in all
+  std::vector<std::uint8_t> moves_;           // since the last call
+  std::vector<std::vector<Excess>> far_;      // of each block
+  std::vector<std::vector<Index>> lines_of_;  // for one vertex after another: the lines that use each vertex
 };
 
 }  // namespace isorelax

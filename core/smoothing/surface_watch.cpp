@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 
 #include "quality/inverted.h"
 #include "surface/feature_edges.h"
@@ -16,8 +15,8 @@ namespace {
 constexpr double kInside = 1 - 1e-9;
 /// Where one triangle is over the limit, those over this share of it are held as well.
 constexpr double kNearLimit = 0.9;
-/// Where steps that keep the surface near let it go too far between their samples, they have to keep it this
-/// much nearer, down to the least share of the limit.
+/// Where the surface went too far although steps kept it near, they have to keep it this much nearer, down to
+/// the least share of the limit.
 constexpr double kNearer = 0.93;
 constexpr double kLeastShare = 0.7;
 
@@ -126,20 +125,9 @@ double SurfaceWatch::largest_distance() const {
   return kInside * limit_ * diagonal_of(surface_);
 }
 
-void SurfaceWatch::keep_all_near(SurfaceHolds& holds) const {
-  holds.distance = largest_distance();
-  holds.near.resize(start_.size());
-  std::iota(holds.near.begin(), holds.near.end(), Index{0});
-}
-
 void SurfaceWatch::hold_more(SurfaceHolds& holds, const Finding& found) const {
-  const double most = largest_distance();
-  if (!(holds.distance > 0)) holds.distance = most;
-  std::vector<Index> about = found.far;
-  grow(about, problem_.triangles, start_.size());
-  const bool nearer = add(holds.near, about);
-  if (add(holds.still, found.turned) || nearer) return;
-  if (!found.far.empty() && holds.distance > kLeastShare * most) {
+  if (add(holds.still, found.turned)) return;
+  if (!found.far.empty() && holds.distance > kLeastShare * largest_distance()) {
     holds.distance *= kNearer;
     return;
   }

@@ -30,18 +30,16 @@ class SurfaceWatch {
 
   [[nodiscard]] Finding look(std::span<const Vec3> positions) const;
 
-  /// Has every step keep the surface within the limit, everywhere, from the start.
-  void keep_all_near(SurfaceHolds& holds) const;
+  /// The largest distance that steps may lead to, in length units.
+  [[nodiscard]] double largest_distance() const;
 
-  /// Holds more than was held in vain. Steps keep the surface near where it went too far; where that was in
-  /// vain they keep it nearer, and at last vertices do not move at all, as where triangles turned over, and
-  /// then their neighbours neither.
+  /// Holds more than was held in vain. Where steps that keep the surface near let it go too far between the
+  /// edges that they look at, they have to keep it nearer; at last vertices do not move at all, as where
+  /// triangles turned over, and then their neighbours neither.
   void hold_more(SurfaceHolds& holds, const Finding& found) const;
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
-
-  [[nodiscard]] double largest_distance() const;
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;

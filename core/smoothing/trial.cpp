@@ -9,9 +9,10 @@ namespace isorelax {
 
 namespace {
 
-/// How far from its triangles the smooth surface may be, of the distance that the mesh may: what is left is
-/// for the triangles between vertices on it.
+/// How far from its triangles the smooth surface may be, and a smooth feature from its edges, of the distance
+/// that the mesh may: what is left is for the triangles between vertices on it.
 constexpr double kLargestShare = 0.5;
+constexpr double kLargestShareOnCurves = 0.9;
 /// A move that leads outwards by less than this share of its length slides already.
 constexpr double kLeastSlide = 1e-3;
 
@@ -21,10 +22,16 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   if (!problem.surface) return target;
   // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
   const SurfaceAnchor anchor = problem.surface->anchor(vertex);
-  Vec3 there = problem.surface->project(target, class_on_surface(problem, vertex), anchor).point;
-  if (!problem.near || problem.near->kept[vertex] == 0) return there;
-  const SurfacePoint foot = problem.near->surface->closest(there, anchor.triangle);
-  const double most = kLargestShare * problem.near->distance;
+  const auto [there, at] = problem.surface->project(target, class_on_surface(problem, vertex), anchor);
+  if (!problem.near) return there;
+  const NearSurface& near = *problem.near;
+  const double share = at.edge == kNone ? kLargestShare : kLargestShareOnCurves;
+  const double most = share * near.distance;
+  const auto& [a, b, c] = problem.triangles[at.triangle];
+  if (closest_point_of_triangle(there, near.positions[a], near.positions[b], near.positions[c]).distance <=
+      most)
+    return there;
+  const SurfacePoint foot = near.surface->closest(there, at.triangle);
   return foot.distance <= most ? there : Vec3(foot.point + (there - foot.point) * (most / foot.distance));
 }
 

@@ -126,8 +126,7 @@ Json part_json(const TracePart& part) {
   json["exponent"] = part.exponent;
   json["untangled_first"] = part.from_base;
   json["held"] = part.holds.still;
-  json["kept_near"] = part.holds.near;
-  json["near_distance"] = part.holds.distance;
+  json["kept_within"] = part.holds.distance;
   if (part.words) json["arguments"] = part.words->arguments;
   return json;
 }

@@ -1,6 +1,7 @@
 #include "trace/trace_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "io/mesh_file.h"
@@ -38,8 +39,8 @@ std::string part_text(const TracePart& part) {
   text += part.kind == PartKind::polish ? "polish, exponent " : "exponent ";
   append_number(text, part.exponent);
   if (!part.holds.still.empty()) text += ", " + vertices(part.holds.still.size()) + " held";
-  if (!part.holds.near.empty()) {
-    text += ", " + vertices(part.holds.near.size()) + " kept within ";
+  if (std::isfinite(part.holds.distance)) {
+    text += ", kept within ";
     append_number(text, part.holds.distance);
   }
   if (part.words) {
@@ -53,7 +54,7 @@ bool says_more_than_words(const Trace& trace, const TracePart& part) {
   const auto& words = words_of(trace, part).arguments;
   const bool chosen =
       part.exponent != kDefaultExponent && std::find(words.begin(), words.end(), "--exponent") == words.end();
-  return chosen || part.from_base || !part.holds.still.empty() || !part.holds.near.empty();
+  return chosen || part.from_base || !part.holds.still.empty() || std::isfinite(part.holds.distance);
 }
 
 bool same_bits(std::span<const Vec3> first, std::span<const Vec3> second) {

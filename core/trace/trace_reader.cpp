@@ -45,13 +45,13 @@ class Reader {
   Trace read() {
     if (bytes_.substr(0, kTraceMagic.size()) != kTraceMagic) fail(0, "is not a trace of isorelax");
     at_ = kTraceMagic.size();
-    const auto version = number<std::uint32_t>();
-    if (version < kFirstTraceVersion || version > kTraceVersion) {
-      fail(kTraceMagic.size(), "is of version " + std::to_string(version) + "; this program reads versions " +
-                                   std::to_string(kFirstTraceVersion) + " to " +
-                                   std::to_string(kTraceVersion));
+    version_ = number<std::uint32_t>();
+    if (version_ < kFirstTraceVersion || version_ > kTraceVersion) {
+      fail(kTraceMagic.size(), "is of version " + std::to_string(version_) +
+                                   "; this program reads versions " + std::to_string(kFirstTraceVersion) +
+                                   " to " + std::to_string(kTraceVersion));
     }
-    read_head(version);
+    read_head();
     read_mesh();
     for (std::size_t k = 0; k < trace_.parts.size(); ++k)
       read_part(trace_.parts[k], k == 0 ? nullptr : &trace_.parts[k - 1]);
@@ -104,7 +104,7 @@ class Reader {
     return content;
   }
 
-  void read_head(std::uint32_t version) {
+  void read_head() {
     const nlohmann::json json = nlohmann::json::parse(part("HEAD"), nullptr, false);
     try {
       trace_.program = json.at("program").get<std::string>();
@@ -113,7 +113,7 @@ class Reader {
       vertices_ = json.at("vertices").get<std::size_t>();
       triangles_ = json.at("triangles").get<std::size_t>();
       const auto iterations = json.at("iterations").get<std::size_t>();
-      const auto parts = version > kFirstTraceVersion ? json.at("parts").get<std::size_t>() : 0;
+      const auto parts = version_ > kFirstTraceVersion ? json.at("parts").get<std::size_t>() : 0;
       // Each takes bytes of its own: a lying count asks for no more memory than the file's size allows.
       if (iterations > bytes_.size() / kLeastBytes || parts > bytes_.size() / kLeastBytes)
         fail(part_start_, "promises more iterations than the file can hold");
@@ -121,7 +121,7 @@ class Reader {
       trace_.parts.resize(parts);
       trace_.quality = {json.at("min_angle_deg").get<double>(), json.at("max_angle_deg").get<double>(),
                         json.at("mean_min_angle_deg").get<double>(), json.at("inverted").get<std::size_t>()};
-      if (version > kFirstTraceVersion) trace_.interrupted = json.at("interrupted").get<bool>();
+      if (version_ > kFirstTraceVersion) trace_.interrupted = json.at("interrupted").get<bool>();
       trace_.stopped = json.at("stopped").get<std::string>();
       trace_.stopped_because = json.at("stopped_because").get<std::string>();
     } catch (const nlohmann::json::exception& error) {
@@ -151,18 +151,22 @@ class Reader {
     Numbers numbers(content);
     std::uint64_t done = 0, flags = 0, still = 0, near = 0;
     if (!numbers.take(done) || !numbers.take(read.exponent) || !numbers.take(read.holds.distance) ||
-        !numbers.take(flags) || !numbers.take(still) || !numbers.take(near))
+        !numbers.take(flags) || !numbers.take(still) ||
+        (version_ == kVersionOfKeptVertices && !numbers.take(near)))
       fail(part_start_, "a part of the run lacks numbers");
     if (before == nullptr ? done != 0 : done <= before->done || done > trace_.iterations.size())
       fail(part_start_, "the parts of the run are not in order");
-    if (!std::isfinite(read.exponent) || !(read.exponent >= 1) || !std::isfinite(read.holds.distance) ||
-        read.holds.distance < 0 || flags > (kTracePartPolish | kTracePartFromBase | kTracePartWords))
+    if (!std::isfinite(read.exponent) || !(read.exponent >= 1) || !(read.holds.distance >= 0) ||
+        flags > (kTracePartPolish | kTracePartFromBase | kTracePartWords))
       fail(part_start_, "a part of the run has numbers that cannot be");
     read.done = done;
     read.kind = (flags & kTracePartPolish) != 0 ? PartKind::polish : PartKind::solver;
     read.from_base = (flags & kTracePartFromBase) != 0;
     read_held(numbers, still, read.holds.still);
-    read_held(numbers, near, read.holds.near);
+    std::vector<Index> kept_near;
+    read_held(numbers, near, kept_near);
+    if (version_ == kVersionOfKeptVertices && kept_near.empty())
+      read.holds.distance = SurfaceHolds{}.distance;
     if ((flags & kTracePartWords) != 0) {
       read_words(numbers.rest(), read);
     } else if (!numbers.rest().empty()) {
@@ -207,6 +211,7 @@ class Reader {
 
   std::string_view bytes_;
   const std::string& name_;
+  std::uint32_t version_ = 0;
   std::size_t at_ = 0;
   std::size_t part_start_ = 0;
   std::size_t vertices_ = 0;

@@ -69,9 +69,7 @@ std::string content_of(const TracePart& part) {
                     (part.from_base ? kTracePartFromBase : std::uint64_t{0}) |
                     (part.words ? kTracePartWords : std::uint64_t{0}));
   append(bytes, std::uint64_t{part.holds.still.size()});
-  append(bytes, std::uint64_t{part.holds.near.size()});
   for (const Index v : part.holds.still) append(bytes, v);
-  for (const Index v : part.holds.near) append(bytes, v);
   if (part.words) {
     nlohmann::ordered_json json;
     put_words(json, *part.words);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "generate/generate.h"
 #include "smoothing/run.h"
+#include "surface/deviation.h"
 
 namespace isorelax {
 namespace {
@@ -20,7 +22,6 @@ SmoothingProblem kept_near(std::span<const Vec3> x, std::span<const Triangle> tr
   options.surface = SurfaceRule::tangent;
   options.boundary = BoundaryRule::free;
   options.holds.distance = kDistance;
-  for (Index v = 0; v < x.size(); ++v) options.holds.near.push_back(v);
   return make_problem(x, triangles, options);
 }
 
@@ -111,6 +112,44 @@ TEST(SurfaceLimit, AnEdgeMayBeTooFarBetweenItsEnds) {
   EXPECT_TRUE(limit.too_far(moved, SurfaceLimit::Blame::movers).empty());
 }
 
+TEST(SurfaceLimit, NothingIsFarAboutASharpRidgeThatHasNotMoved) {
+  // The middle of one slope is nearer to its foot on the other slope than to all about that.
+  const double width = 0.5;
+  const std::vector<Vec3> x{{0, 0, 0},          {0, 1, 0},         {-width, 0, -1},     {-width, 1, -1},
+                            {width, 0, -1},     {width, 1, -1},    {-2 * width, 0, -2}, {-2 * width, 1, -2},
+                            {2 * width, 0, -2}, {2 * width, 1, -2}};
+  const std::vector<Triangle> triangles{{2, 0, 1}, {2, 1, 3}, {0, 4, 1}, {4, 5, 1},
+                                        {6, 2, 3}, {6, 3, 7}, {4, 8, 5}, {8, 9, 5}};
+  const SmoothingProblem problem = kept_near(x, triangles);
+  SurfaceLimit limit(problem);
+  EXPECT_TRUE(limit.too_far(x, SurfaceLimit::Blame::all).empty());
+}
+
+TEST(SurfaceLimit, BoundsHoldBetweenTheSamplesToo) {
+  // Whatever it lets pass is near, as measured by points all over: random moves of a torus, many at once.
+  const TriangleMesh torus = generate(ShapeKind::torus, {.seed = 5, .triangles = 300, .jitter = 0.3});
+  ProblemOptions options;
+  options.holds.distance = 0.02;
+  const SmoothingProblem problem = make_problem(torus.positions, torus.triangles, options);
+  SurfaceLimit limit(problem);
+  const double diagonal = Eigen::AlignedBox3d(Vec3(-1.4, -1.4, -0.4), Vec3(1.4, 1.4, 0.4)).diagonal().norm();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  unsigned passed = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<Vec3> x = torus.positions;
+    const double size = 0.05 * (i + 1) / 60;
+    for (Vec3& p : x) p += size * Vec3(u(random), u(random), u(random));
+    if (!limit.too_far(x, SurfaceLimit::Blame::movers).empty()) continue;
+    ++passed;
+    const double largest =
+        measure_deviation(torus.positions, x, torus.triangles, problem.topology).max * diagonal;
+    EXPECT_LE(largest, 1.05 * options.holds.distance);
+  }
+  EXPECT_GT(passed, 5U);
+  EXPECT_LT(passed, 55U);
+}
+
 TEST(SurfaceLimit, KeepsTellsTheSameOfOneVertex) {
   const Tent tent(0.5);
   SurfaceLimit limit(tent.problem);
@@ -130,7 +169,6 @@ TEST(SurfaceLimit, RoundsThatItTakesAreInTheRecord) {
   const TriangleMesh torus = generate(ShapeKind::torus, {.seed = 3, .triangles = 1000, .jitter = 0.5});
   ProblemOptions options;
   options.holds.distance = 0.01;
-  for (Index v = 0; v < torus.vertex_count(); ++v) options.holds.near.push_back(v);
   const SmoothingProblem problem = make_problem(torus.positions, torus.triangles, options);
   StepRecord record;
   make_smoother(problem, Solver::newton, RecordDetail::stages)->step(torus.positions, record);

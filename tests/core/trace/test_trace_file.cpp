@@ -54,12 +54,12 @@ TEST(TraceFile, RefusesEveryTruncationAndWhatFollowsTheEnd) {
   EXPECT_THROW((void)parse_trace(bytes + "x", "t"), InputError);
   EXPECT_THROW((void)parse_trace("OFF\n1 2 3\n", "t"), InputError);
   std::string later = bytes;
-  later[kTraceMagic.size()] = 3;
+  later[kTraceMagic.size()] = 4;
   try {
     (void)parse_trace(later, "t");
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("version 3"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("version 4"), std::string::npos);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "core/trace/recorded.h"
@@ -41,7 +42,7 @@ Trace with_parts() {
   trace.parts.resize(2);
   trace.parts[0].base = trace.iterations[0].delta;
   trace.parts[0].from_base = true;
-  trace.parts[0].holds = {{3, 5}, {7}, 0.25};
+  trace.parts[0].holds = {{3, 5}, 0.25};
   trace.parts[1].done = 1;
   trace.parts[1].exponent = 8;
   trace.parts[1].kind = PartKind::polish;
@@ -88,7 +89,7 @@ TEST(TraceParts, StandInTheFileAsTheyWere) {
   EXPECT_NE(base_of(back, back.parts[0]), back.positions);
   EXPECT_EQ(words_of(back, back.parts[0]), static_cast<const RunWords&>(trace));
   EXPECT_EQ(part_text(back.parts[0]),
-            "from iteration 1: untangled first, exponent 2, 2 vertices held, 1 vertex kept within 0.25");
+            "from iteration 1: untangled first, exponent 2, 2 vertices held, kept within 0.25");
   EXPECT_EQ(part_text(back.parts[1]), "from iteration 2: polish, exponent 8, arguments --mu 0.5");
 }
 
@@ -136,8 +137,8 @@ TEST(TraceParts, DamageOfTheirsIsRefusedWithItsPlace) {
   for (const std::function<void(Trace&)>& change : std::vector<std::function<void(Trace&)>>{
            [](Trace& t) { t.parts[0].done = 1; }, [](Trace& t) { t.parts[1].done = 0; },
            [](Trace& t) { t.parts[1].done = 3; }, [](Trace& t) { t.parts[0].holds.still = {100000}; },
-           [](Trace& t) { t.parts[0].holds.near = {100000}; }, [](Trace& t) { t.parts[1].exponent = 0.5; },
-           [&](Trace& t) { t.parts[1].exponent = nan; }, [&](Trace& t) { t.parts[1].holds.distance = nan; },
+           [](Trace& t) { t.parts[1].exponent = 0.5; }, [&](Trace& t) { t.parts[1].exponent = nan; },
+           [&](Trace& t) { t.parts[1].holds.distance = nan; },
            [](Trace& t) { t.parts[1].holds.distance = -1; }}) {
     const std::string text = complaint(change);
     EXPECT_NE(text.find("byte "), std::string::npos) << text;
@@ -153,6 +154,18 @@ TEST(TraceParts, FilesOfTheFirstVersionHaveNone) {
   EXPECT_TRUE(back.parts.empty());
   EXPECT_TRUE(compare_traces(back, trace).none());
   EXPECT_EQ(part_of(back, 1), nullptr);
+}
+
+TEST(TraceParts, FilesOfTheSecondVersionKeepTheirDistanceEverywhereOrNowhere) {
+  const std::string folder = ISORELAX_SOURCE_DIR "/tests/core/trace/recorded/";
+  const Trace free = read_trace(folder + "version_2.trace");
+  ASSERT_EQ(free.parts.size(), 1U);
+  EXPECT_TRUE(free.parts[0].holds == SurfaceHolds{});
+  const Trace limited = read_trace(folder + "version_2_limited.trace");
+  ASSERT_EQ(limited.parts.size(), 1U);
+  EXPECT_GT(limited.parts[0].holds.distance, 0);
+  EXPECT_TRUE(std::isfinite(limited.parts[0].holds.distance));
+  EXPECT_TRUE(parse_trace(trace_bytes(limited), "t").parts == limited.parts);
 }
 
 TEST(TraceParts, AnAttemptThatBeginsAnewDropsThoseOfTheOneBefore) {
