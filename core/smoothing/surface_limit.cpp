@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/parallel.h"
+#include "surface/feature_edges.h"
 #include "surface/walk.h"
 
 namespace isorelax {
@@ -14,6 +15,9 @@ namespace {
 constexpr double kSeen = 0.98;
 /// Share that may be proven: the rest is for rounding.
 constexpr double kProven = 1 - 1e-9;
+/// Where edges cross, the distances one way and the other differ by the cosine of half the turn of one edge:
+/// up to this turn, by less than what is left between seen and proven.
+constexpr double kSharpTurnDeg = 10;
 /// An edge is divided that often at most, and not too near to an end.
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
@@ -33,32 +37,35 @@ void SurfaceLimit::prepare() {
   travelled_.assign(last_.size(), 0);
   moves_.assign(last_.size(), 0);
   std::vector<std::uint8_t> is_end(last_.size(), 0);
+  std::vector<std::array<Index, 2>> sharp;
   for (Corner c = 0; c < 3 * problem_.triangle_count(); ++c) {
     if (topology.opposite(c) != kNone && topology.opposite(c) < c) continue;
     const Triangle& t = problem_.triangles[c / 3];
     const std::array<Index, 2> ends = {t[next(c % 3)], t[previous(c % 3)]};
     // In a plane only the outline can be far from where it was.
     if (problem_.plane_normal && !topology.is_boundary(ends[0]) && !topology.is_boundary(ends[1])) continue;
-    edges_.push_back(ends);
+    ends_of_.push_back(ends);
     for (const Index v : ends) is_end[v] = 1;
+    if (topology.opposite(c) == kNone ||
+        dihedral_turn_deg(near.positions, problem_.triangles, topology, c) > kSharpTurnDeg)
+      sharp.push_back(ends);
   }
+  count_now_ = ends_of_.size();
   feet_now_.resize(last_.size());
   for (Index v = 0; v < last_.size(); ++v) {
     if (is_end[v] == 0) continue;
     ends_.push_back(v);
+    ends_of_.push_back({v, v});
     feet_now_[v] = {topology.corners_of(v)[0] / 3, 0};
   }
+  ends_of_.insert(ends_of_.end(), sharp.begin(), sharp.end());
   feet_then_ = feet_now_;
-  lines_.assign(2 * edges_.size(), {INFINITY, {}, {}});
-}
-
-const std::array<Index, 2>& SurfaceLimit::ends_of(std::size_t line) const {
-  return edges_[is_of_now(line) ? line : line - edges_.size()];
+  lines_.assign(ends_of_.size(), {INFINITY, {}, {}});
 }
 
 SurfaceLimit::View SurfaceLimit::view_of(std::size_t line, std::span<const Vec3> x) const {
   const std::span<const Vec3> then = problem_.near->positions;
-  const auto& [a, b] = ends_of(line);
+  const auto& [a, b] = ends_of_[line];
   if (is_of_now(line)) return {true, x[a], x[b], then};
   return {false, then[a], then[b], x};
 }
@@ -166,7 +173,7 @@ void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::a
   line.uses.clear();
   line.peak = a.foot.distance < b.foot.distance ? b : a;
   if (view.now) {
-    for (const Index v : ends_of(id)) note_use(line, v);
+    for (const Index v : ends_of_[id]) note_use(line, v);
   }
   if (line.peak.foot.distance > seen_ || !is_near(view, a, b, kDivisions, line)) line.bound = INFINITY;
 }
@@ -180,7 +187,7 @@ void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blam
   const Vec3 outwards = (view.now ? point - found.point : found.point - point).stableNormalized();
   const double least = blame == Blame::all ? 0 : kLeastWeight;
   if (view.now) {
-    const auto& [a, b] = ends_of(id);
+    const auto& [a, b] = ends_of_[id];
     if (1 - share >= least) to.push_back({a, outwards});
     if (share >= least) to.push_back({b, outwards});
     return;
@@ -224,7 +231,7 @@ std::vector<SurfaceLimit::Excess> SurfaceLimit::too_far(std::span<const Vec3> x,
     for (std::size_t id = begin; id < end; ++id) {
       if (is_near_still(lines_[id])) continue;
       const auto& feet = is_of_now(id) ? feet_now_ : feet_then_;
-      measure(id, x, {feet[ends_of(id)[0]], feet[ends_of(id)[1]]});
+      measure(id, x, {feet[ends_of_[id][0]], feet[ends_of_[id][1]]});
       if (lines_[id].bound > proven_) blame_for(id, x, blame, far);
     }
   });
@@ -255,7 +262,7 @@ bool SurfaceLimit::keeps(std::span<const Vec3> x, Index vertex) {
   for (const Index id : lines_of_[vertex]) {
     if (is_near_still(lines_[id])) continue;
     before.emplace_back(id, lines_[id]);
-    const auto& [a, b] = ends_of(id);
+    const auto& [a, b] = ends_of_[id];
     measure(id, x,
             is_of_now(id) ? std::array{feet_now_[a], feet_now_[b]}
                           : std::array{foot_of(false, x, a), foot_of(false, x, b)});

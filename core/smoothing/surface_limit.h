@@ -11,8 +11,9 @@ namespace isorelax {
 /// way.
 ///
 /// Where two triangulations lie over each other, the largest distance between them is at a vertex of one of
-/// them or where two edges cross. So every edge of now is measured against the surface of then, and every
-/// edge of then against the surface of now, from end to end. The distance to one triangle is convex along an
+/// them or where two edges cross, and there it is nearly the same both ways unless one of them is sharp. So
+/// every edge of now is measured against the surface of then, from end to end, and every vertex and every
+/// sharp edge of then against the surface of now. The distance to one triangle is convex along an
 /// edge: with the triangles nearest to two of its points, the larger of two values, or where two straight
 /// lines cross, is a bound on all that lies between. Where the bound does not do, the edge is divided there.
 /// As long as nothing that a bound depends on has moved by more than is left to the limit, nothing is
@@ -57,7 +58,7 @@ class SurfaceLimit {
     Index vertex;
     double travelled;
   };
-  /// An edge, as it is or as it was, against the other surface.
+  /// An edge as it is, or an edge or vertex as it was, against the other surface.
   struct Line {
     double bound;           ///< on the distance of all its points when it was measured; infinite: too far
     Sample peak;            ///< the farthest point seen then
@@ -73,8 +74,7 @@ class SurfaceLimit {
   };
 
   void prepare();
-  [[nodiscard]] bool is_of_now(std::size_t line) const { return line < edges_.size(); }
-  [[nodiscard]] const std::array<Index, 2>& ends_of(std::size_t line) const;
+  [[nodiscard]] bool is_of_now(std::size_t line) const { return line < count_now_; }
   [[nodiscard]] View view_of(std::size_t line, std::span<const Vec3> x) const;
   [[nodiscard]] SurfacePoint closest_of(std::span<const Vec3> surface, const Vec3& point,
                                         Index triangle) const;
@@ -90,10 +90,11 @@ class SurfaceLimit {
   void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;
 
   const SmoothingProblem& problem_;
-  double seen_ = 0, proven_ = 0;              // the largest distances that a sample and a bound may have
-  std::vector<std::array<Index, 2>> edges_;   // that can be too far
-  std::vector<Index> ends_;                   // of edges, each once
-  std::vector<Line> lines_;                   // all edges of now, then all of then
+  double seen_ = 0, proven_ = 0;               // the largest distances that a sample and a bound may have
+  std::size_t count_now_ = 0;                  // lines of now come first
+  std::vector<std::array<Index, 2>> ends_of_;  // of each line; a vertex is both of its ends
+  std::vector<Index> ends_;                    // of lines, each once
+  std::vector<Line> lines_;
   std::vector<Foot> feet_now_, feet_then_;    // of the ends, by vertex
   std::vector<Vec3> last_;                    // positions in the last call
   std::vector<double> travelled_;             // by each vertex, in all

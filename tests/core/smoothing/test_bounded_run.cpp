@@ -17,7 +17,7 @@ BoundedResult smooth(TriangleMesh& mesh, double limit, SurfaceRule surface = Sur
 }
 
 TriangleMesh shaken_torus() {
-  return generate(ShapeKind::torus, {.seed = 3, .triangles = 1000, .jitter = 0.5});
+  return generate(ShapeKind::torus, {.seed = 3, .triangles = 600, .jitter = 0.5});
 }
 
 double deviation(const TriangleMesh& a, const TriangleMesh& b) {
