@@ -70,19 +70,13 @@ SurfaceLimit::View SurfaceLimit::view_of(std::size_t line, std::span<const Vec3>
   return {false, then[a], then[b], x};
 }
 
-SurfacePoint SurfaceLimit::closest_of(std::span<const Vec3> surface, const Vec3& point,
-                                      Index triangle) const {
-  const auto& [a, b, c] = problem_.triangles[triangle];
-  SurfacePoint found = closest_point_of_triangle(point, surface[a], surface[b], surface[c]);
-  found.triangle = triangle;
-  return found;
-}
-
 /// A walk mostly ends at the closest point of all. Where it leads too far, as on the wrong side of a ridge,
 /// that is looked for: in the index of the surface as it was, or farther about.
 SurfacePoint SurfaceLimit::nearest(const View& view, const Vec3& point, Index triangle) const {
   const Topology& topology = problem_.topology;
-  const auto foot = [&](Index t) { return closest_of(view.surface, point, t); };
+  const auto foot = [&](Index t) {
+    return closest_point_of_triangle(point, view.surface, problem_.triangles, t);
+  };
   const auto about = [&](Corner c) { return topology.corners_of(problem_.triangles[c / 3][c % 3]); };
   const auto walk_from = [&](const SurfacePoint& start) {
     return walk_nearer(
@@ -132,8 +126,11 @@ SurfaceLimit::Sample SurfaceLimit::bound_between(const View& view, const Sample&
   const auto [near_b, at_b] = b.foot;
   const Sample ends = at_a < at_b ? Sample{1, b.foot} : Sample{0, a.foot};
   if (near_a == near_b) return ends;
-  const double a_at_b = closest_of(view.surface, view.at(b.share), near_a).distance;
-  const double b_at_a = closest_of(view.surface, view.at(a.share), near_b).distance;
+  const auto distance = [&](const Sample& at, Index triangle) {
+    return closest_point_of_triangle(view.at(at.share), view.surface, problem_.triangles, triangle).distance;
+  };
+  const double a_at_b = distance(b, near_a);
+  const double b_at_a = distance(a, near_b);
   const double left = b_at_a - at_a;
   const double right = a_at_b - at_b;
   if (!(left > 0 && right > 0)) return ends;

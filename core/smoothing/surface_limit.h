@@ -76,8 +76,6 @@ class SurfaceLimit {
   void prepare();
   [[nodiscard]] bool is_of_now(std::size_t line) const { return line < count_now_; }
   [[nodiscard]] View view_of(std::size_t line, std::span<const Vec3> x) const;
-  [[nodiscard]] SurfacePoint closest_of(std::span<const Vec3> surface, const Vec3& point,
-                                        Index triangle) const;
   [[nodiscard]] SurfacePoint nearest(const View& view, const Vec3& point, Index triangle) const;
   [[nodiscard]] Foot foot_of(bool now, std::span<const Vec3> x, Index vertex) const;
   [[nodiscard]] bool is_near_still(const Line& line) const;

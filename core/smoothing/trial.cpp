@@ -27,10 +27,8 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   const NearSurface& near = *problem.near;
   const double share = at.edge == kNone ? kLargestShare : kLargestShareOnCurves;
   const double most = share * near.distance;
-  const auto& [a, b, c] = problem.triangles[at.triangle];
-  if (closest_point_of_triangle(there, near.positions[a], near.positions[b], near.positions[c]).distance <=
-      most)
-    return there;
+  const auto lift = closest_point_of_triangle(there, near.positions, problem.triangles, at.triangle).distance;
+  if (lift <= most) return there;
   const SurfacePoint foot = near.surface->closest(there, at.triangle);
   return foot.distance <= most ? there : Vec3(foot.point + (there - foot.point) * (most / foot.distance));
 }

@@ -70,6 +70,13 @@ SurfacePoint closest_point_of_triangle(const Vec3& p, const Vec3& a, const Vec3&
   return {kNone, best.weights, best.point, std::sqrt(best.squared)};
 }
 
+SurfacePoint closest_point_of_triangle(const Vec3& p, std::span<const Vec3> positions,
+                                       std::span<const Triangle> triangles, Index triangle) {
+  const auto& [a, b, c] = triangles[triangle];
+  const Candidate best = closest(p, positions[a], positions[b], positions[c]);
+  return {triangle, best.weights, best.point, std::sqrt(best.squared)};
+}
+
 // Build ---------------------------------------------------------------------------------------------------
 
 class ClosestPointIndex::Builder {

@@ -20,6 +20,10 @@ struct SurfacePoint {
 [[nodiscard]] SurfacePoint closest_point_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                                      const Vec3& c);
 
+/// The same of a mesh's triangle, which the result names.
+[[nodiscard]] SurfacePoint closest_point_of_triangle(const Vec3& p, std::span<const Vec3> positions,
+                                                     std::span<const Triangle> triangles, Index triangle);
+
 /// Finds the closest point of a set of triangles: a tree of boxes, each split at the median of the
 /// triangles' centres, so that its depth is bounded whatever the mesh. Any triangles are accepted, flawed
 /// ones too. Building is O(T log T), a query allocates nothing. Reading from several threads at once is safe.

@@ -174,16 +174,10 @@ void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& c
 
 // Queries -------------------------------------------------------------------------------------------------
 
-SurfacePoint FrozenSurface::foot(const Vec3& point, Index triangle) const {
-  const auto& [a, b, c] = triangles_[triangle];
-  SurfacePoint found = closest_point_of_triangle(point, x_[a], x_[b], x_[c]);
-  found.triangle = triangle;
-  return found;
-}
-
 SurfacePoint FrozenSurface::walk(const Vec3& point, Index triangle) const {
+  const auto foot = [&](Index t) { return closest_point_of_triangle(point, x_, triangles_, t); };
   return walk_nearer(
-      foot(point, triangle), [&](Index t) { return foot(point, t); }, [&](Corner c) { return opposite_[c]; },
+      foot(triangle), foot, [&](Corner c) { return opposite_[c]; },
       [&](Corner c) { return faces_.corners(faces_.of(c)); });
 }
 

@@ -76,7 +76,6 @@ class FrozenSurface {
                    std::span<const FeatureCurves::Edge> creases);
   [[nodiscard]] bool is_planar(const Sectors& sectors, Index sector) const;
 
-  [[nodiscard]] SurfacePoint foot(const Vec3& point, Index triangle) const;
   [[nodiscard]] SurfacePoint walk(const Vec3& point, Index triangle) const;
   [[nodiscard]] Lifted lift(const SurfacePoint& foot) const;
   [[nodiscard]] Lifted project_to_face(const Vec3& point, Index from) const;

@@ -209,14 +209,12 @@ void compare_made() {
 
 int run(std::span<char*> names) {
   std::printf(
-      "One thread each. Angles in degrees: smallest, largest, mean of the triangles' smallest. Distance "
-      "from\n"
-      "the input (largest, RMS) over its bounding-box diagonal, change of volume, inverted triangles, "
-      "seconds,\n"
-      "and in the last column the seconds that Isorelax takes to be as good as the peer in the smallest "
-      "angle\n"
-      "and the mean (-: it is not), free and as near as the peer. Peers hold the boundary and all features.\n"
-      "Where a peer stays nearer to the input, the row below is ours with that distance as its limit.\n\n");
+      "One thread each. Angles in degrees: smallest, largest, mean of the triangles' smallest. Distance\n"
+      "from the input (largest, RMS) over its bounding-box diagonal, change of volume, inverted triangles,\n"
+      "seconds, and in the last column the seconds that Isorelax takes to be as good as the peer in the\n"
+      "smallest angle and the mean (-: it is not), free and as near as the peer. Peers hold the boundary\n"
+      "and all features. Where a peer stays nearer to the input, the row below is ours with that distance\n"
+      "as its limit.\n\n");
   std::printf("  %-44s %7s %7s %7s  %8s %8s %8s %5s %8s %9s\n\n", "", "min", "max", "mean", "max dev",
               "rms dev", "volume", "inv", "seconds", "ours then");
   if (!names.empty()) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "generate/generate.h"
-
 namespace isorelax {
 namespace {
 
@@ -35,11 +33,7 @@ TEST(Walk, OverAFlatGridEndsAtTheClosestPointFromEverywhere) {
     for (int j = -2; j <= 14; ++j) {
       const Vec3 point(0.5 * i + 1e-17, 0.5 * j, 0.25);
       const auto foot = [&](Index t) {
-        const auto& [a, b, c] = grid.triangles[t];
-        SurfacePoint found =
-            closest_point_of_triangle(point, grid.positions[a], grid.positions[b], grid.positions[c]);
-        found.triangle = t;
-        return found;
+        return closest_point_of_triangle(point, grid.positions, grid.triangles, t);
       };
       const double best = index.closest(point).distance;
       for (Index start = 0; start < grid.triangles.size(); ++start) {
