@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "compare/hausdorff.h"
 #include "mesh/error.h"
 #include "mesh/topology.h"
 #include "quality/report.h"
 #include "render/camera.h"
 #include "surface/deviation.h"
+#include "surface/one_way_distance.h"
 #include "view/picture.h"
 
 namespace isorelax::compare {
@@ -105,8 +105,11 @@ void compare_moved(const TriangleMesh& a, const TriangleMesh& b, double diagonal
 
 void compare_surfaces(const TriangleMesh& a, const TriangleMesh& b, double diagonal, const MeshLimits& limits,
                       Case& result) {
-  const OneSided there = farthest(a, b);
-  const OneSided back = farthest(b, a);
+  const Topology around_a(a.triangles, a.vertex_count()), around_b(b.triangles, b.vertex_count());
+  const IndexedSurface surface_a(a.positions, a.triangles, around_a);
+  const IndexedSurface surface_b(b.positions, b.triangles, around_b);
+  const FarPoint there = measure_one_way(surface_a, surface_b, 0).farthest;
+  const FarPoint back = measure_one_way(surface_b, surface_a, 0).farthest;
   const double most = std::max(there.distance, back.distance) / diagonal;
   result.figures.push_back(
       {"hausdorff_a_to_b", "Hausdorff distance from A to B, of the diagonal", there.distance / diagonal, {}});
@@ -114,8 +117,8 @@ void compare_surfaces(const TriangleMesh& a, const TriangleMesh& b, double diago
       {"hausdorff_b_to_a", "Hausdorff distance from B to A, of the diagonal", back.distance / diagonal, {}});
   result.figures.push_back({"hausdorff", "Hausdorff distance, of the diagonal", most, {}});
   result.notes.emplace_back("The meshes have different triangles: only their surfaces are compared.");
-  result.notes.push_back("Farthest from B is " + place(there.from) + " on A; farthest from A is " +
-                         place(back.from) + " on B.");
+  result.notes.push_back("Farthest from B is " + place(there.point) + " on A; farthest from A is " +
+                         place(back.point) + " on B.");
   result.verdicts.push_back({"max-deviation", "largest distance between the surfaces, of the diagonal", most,
                              limits.deviation, false, most <= limits.deviation});
 }

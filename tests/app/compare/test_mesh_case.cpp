@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "compare/hausdorff.h"
 #include "compare/mesh_case.h"
 #include "mesh/error.h"
 
@@ -84,17 +83,6 @@ TEST(MeshCase, other_triangles_are_compared_as_surfaces) {
   EXPECT_FALSE(one.passes());
   EXPECT_NEAR(figure(one, "hausdorff_a_to_b"), 0, 1e-12);
   EXPECT_NEAR(figure(one, "hausdorff_b_to_a"), 0.5 * std::sqrt(2.0) / std::sqrt(2.0), 1e-12);
-}
-
-TEST(Hausdorff, finds_where_it_is_farthest) {
-  const TriangleMesh low = plate(2);
-  TriangleMesh high = plate(3, 1, 0.25);
-  high.positions[5].z() = 0.75;
-  const OneSided there = farthest(high, low);
-  EXPECT_NEAR(there.distance, 0.75, 1e-12);
-  EXPECT_EQ(there.from, high.positions[5]);
-  EXPECT_NEAR(there.to.z(), 0, 1e-12);
-  EXPECT_GE(farthest(low, high).distance, 0.25);
 }
 
 TEST(MeshCase, the_page_has_pictures_of_both_and_of_what_is_between_them) {

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "core/surface/shapes.h"
-#include "surface/closest_point.h"
 
 namespace isorelax {
 namespace {
@@ -73,42 +72,6 @@ TEST(Deviation, CountsBothWays) {
   EXPECT_NEAR(d.max_to_original, 0.5 / std::sqrt(1.25) / diagonal, 1e-6);  // from the centre to a slope
   EXPECT_EQ(d.max, d.max_to_new);
   EXPECT_NEAR(d.normal_change_deg, std::atan(0.5) * 180 / std::numbers::pi, 1e-9);
-}
-
-/// Largest distance of a grid of 100 steps on every triangle of one surface from the other one.
-double largest_on_grid(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
-                       const std::vector<Triangle>& triangles) {
-  const ClosestPointIndex index(to, triangles);
-  double largest = 0;
-  for (const Triangle& t : triangles) {
-    for (int i = 0; i <= 100; ++i) {
-      for (int j = 0; i + j <= 100; ++j) {
-        const Vec3 p = (i * from[t[0]] + j * from[t[1]] + (100 - i - j) * from[t[2]]) / 100;
-        largest = std::max(largest, index.closest(p).distance);
-      }
-    }
-  }
-  return largest;
-}
-
-TEST(Deviation, FindsPeaksBetweenTheSamples) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> u(-0.2, 0.2);
-  for (int round = 0; round < 5; ++round) {
-    const TriangleMesh mesh = with_vertices(ShapeKind::sphere, 12);
-    std::vector<Vec3> moved = mesh.positions;
-    for (Vec3& x : moved) x += Vec3::NullaryExpr([&] { return u(random); });
-    const Deviation d = deviation(mesh, moved);
-    Eigen::AlignedBox3d box;
-    for (const Vec3& x : mesh.positions) box.extend(x);
-    const double diagonal = box.diagonal().norm();
-    const double there = largest_on_grid(moved, mesh.positions, mesh.triangles);
-    const double back = largest_on_grid(mesh.positions, moved, mesh.triangles);
-    EXPECT_GE(d.max_to_original * diagonal, 0.9999 * there);
-    EXPECT_LE(d.max_to_original * diagonal, 1.01 * there);
-    EXPECT_GE(d.max_to_new * diagonal, 0.9999 * back);
-    EXPECT_LE(d.max_to_new * diagonal, 1.01 * back);
-  }
 }
 
 TEST(Deviation, NamesTheTrianglesThatAreFar) {

@@ -1,0 +1,255 @@
+#include "surface/one_way_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "mesh/parallel.h"
+
+namespace isorelax {
+namespace {
+
+/// What can be farther than the largest distance by less than this share of it is not looked into.
+constexpr double kTolerance = 1e-3;
+/// An edge is divided that often at most, one part in another, and not too near to an end.
+constexpr unsigned kDivisions = 12;
+constexpr double kLeastPart = 0.05;
+/// Triangles that are searched all over, halvings of their parts, one in another, and samples for each.
+constexpr std::size_t kSearched = 64;
+constexpr unsigned kHalvings = 40;
+constexpr unsigned kSamples = 2000;
+
+class Measurement {
+ public:
+  Measurement(const IndexedSurface& from, const IndexedSurface& to, unsigned threads)
+      : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {}
+
+  OneWayDistance run() {
+    sample_vertices();
+    sample_edges();
+    sample_triangles();
+    sample_feet();
+    note_largest();
+    divide_edges();
+    search_triangles();
+    note_largest();
+    return std::move(result_);
+  }
+
+ private:
+  /// A part of a triangle that is still to be looked into.
+  struct Part {
+    std::array<FarPoint, 3> corners;
+    double bound;  ///< on the distance from any of its points
+    unsigned halvings;
+  };
+
+  [[nodiscard]] FarPoint sample(const Vec3& point, Index hint) const {
+    const SurfacePoint found = to_.index.closest(point, hint);
+    return {found.distance, point, found.triangle};
+  }
+
+  void note(Index t, const FarPoint& point) {
+    if (point.distance > result_.by_triangle[t].distance) result_.by_triangle[t] = point;
+  }
+  void note_largest() {
+    for (const FarPoint& p : result_.by_triangle)
+      if (p.distance > result_.farthest.distance) result_.farthest = p;
+  }
+
+  // Samples ------------------------------------------------------------------------------------------------
+
+  void sample_vertices() {
+    vertex_.assign(x_.size(), {});
+    parallel_for_blocks(x_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const auto corners = from_.topology.corners_of(static_cast<Index>(v));
+        if (!corners.empty()) vertex_[v] = sample(x_[v], corners[0] / 3);
+      }
+    });
+  }
+
+  /// The corner that stands for the edge opposite to `corner`: the smaller of the two.
+  [[nodiscard]] Corner owner(Corner corner) const {
+    return std::min(corner, from_.topology.opposite(corner));
+  }
+
+  /// Calls work(corner, first end, second end) for every edge, and notes what it leaves in edge_.
+  template <typename Work>
+  void for_edges(const Work& work) {
+    parallel_for_blocks(edge_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (Corner c = static_cast<Corner>(begin); c < end; ++c) {
+        const Triangle& t = triangles_[c / 3];
+        if (owner(c) == c) work(c, t[next(c % 3)], t[previous(c % 3)]);
+      }
+    });
+    for (Corner c = 0; c < edge_.size(); ++c) note(c / 3, edge_[owner(c)]);
+  }
+
+  void sample_edges() {
+    edge_.assign(3 * triangles_.size(), {});
+    result_.by_triangle.assign(triangles_.size(), {});
+    for_edges([&](Corner c, Index a, Index b) { edge_[c] = sample(0.5 * (x_[a] + x_[b]), c / 3); });
+  }
+
+  void sample_triangles() {
+    struct Sums {
+      double squares = 0, area = 0;
+    };
+    std::vector<Sums> parts(block_count(triangles_.size()));
+    parallel_for_blocks(triangles_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      Sums& part = parts[begin / kBlockSize];
+      for (std::size_t t = begin; t < end; ++t) {
+        const auto& [a, b, c] = triangles_[t];
+        const double area = 0.5 * area_vector(x_[a], x_[b], x_[c]).norm();
+        part.squares += area * mean_square(static_cast<Index>(t));
+        part.area += area;
+      }
+    });
+    for (const Sums& part : parts) {
+      result_.squares += part.squares;
+      result_.area += part.area;
+    }
+  }
+
+  double mean_square(Index t) {
+    const auto& [a, b, c] = triangles_[t];
+    const Vec3 centre = (x_[a] + x_[b] + x_[c]) / 3;
+    double corners = 0, middles = 0, inner = 0;
+    const auto squared = [&](const FarPoint& point) {
+      note(t, point);
+      return point.distance * point.distance;
+    };
+    for (unsigned k = 0; k < 3; ++k) {
+      const Index v = triangles_[t][k];
+      corners += squared(vertex_[v]);
+      middles += squared(edge_[owner(3 * t + k)]);
+      inner += squared(sample(0.5 * (centre + x_[v]), t));
+    }
+    const double centroid = squared(sample(centre, t));
+    return 0.5 * (corners / 20 + middles * 2 / 15 + centroid * 9 / 20) + 0.5 * inner / 3;
+  }
+
+  /// Over a vertex of the other surface.
+  void sample_feet() {
+    const std::size_t count = to_.positions.size();
+    std::vector<FarPoint> feet(count);
+    std::vector<Index> on(count, kNone);
+    parallel_for_blocks(count, threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const auto corners = to_.topology.corners_of(static_cast<Index>(v));
+        if (corners.empty()) continue;
+        const SurfacePoint foot = from_.index.closest(to_.positions[v], corners[0] / 3);
+        on[v] = foot.triangle;
+        feet[v] = sample(foot.point, corners[0] / 3);
+      }
+    });
+    for (std::size_t v = 0; v < count; ++v)
+      if (on[v] != kNone) note(on[v], feet[v]);
+  }
+
+  // The largest distance -----------------------------------------------------------------------------------
+
+  [[nodiscard]] double distance(const FarPoint& from, Index triangle) const {
+    if (from.nearest == triangle) return from.distance;
+    return closest_point_of_triangle(from.point, to_.positions, to_.triangles, triangle).distance;
+  }
+  [[nodiscard]] static double more_than(double largest) { return (1 + kTolerance) * largest; }
+
+  void divide_edges() {
+    for_edges([&](Corner c, Index a, Index b) {
+      const FarPoint middle = edge_[c];
+      divide(vertex_[a], middle, kDivisions, edge_[c]);
+      divide(middle, vertex_[b], kDivisions, edge_[c]);
+    });
+  }
+
+  /// Where one bound on the distances between a and b, from the triangle nearest to a, meets the other one.
+  void divide(const FarPoint& a, const FarPoint& b, unsigned divisions, FarPoint& peak) const {
+    const double a_at_b = distance(b, a.nearest);
+    const double b_at_a = distance(a, b.nearest);
+    const double left = b_at_a - a.distance;
+    const double right = a_at_b - b.distance;
+    const double share = left + right > 0 ? left / (left + right) : 0.5;
+    const double bound = std::max({a.distance, b.distance, a.distance + share * (a_at_b - a.distance)});
+    if (divisions == 0 || bound <= more_than(std::max(result_.farthest.distance, peak.distance))) return;
+    const double part = std::clamp(share, kLeastPart, 1 - kLeastPart);
+    const FarPoint between = sample((1 - part) * a.point + part * b.point, a.nearest);
+    if (between.distance > peak.distance) peak = between;
+    divide(a, between, divisions - 1, peak);
+    divide(between, b, divisions - 1, peak);
+  }
+
+  void search_triangles() {
+    std::vector<Index> order(triangles_.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    const std::size_t count = std::min(kSearched, order.size());
+    std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](Index a, Index b) {
+      const double x = result_.by_triangle[a].distance, y = result_.by_triangle[b].distance;
+      return x != y ? x > y : a < b;
+    });
+    for (std::size_t i = 0; i < count; ++i) search(order[i]);
+  }
+
+  /// Halves parts of a triangle until none can be farther than what was found on it.
+  void search(Index t) {
+    const auto& [a, b, c] = triangles_[t];
+    std::vector<Part> parts = {{{vertex_[a], vertex_[b], vertex_[c]}, INFINITY, 0}};
+    for (unsigned samples = 0; !parts.empty() && samples < kSamples;) {
+      const Part part = parts.back();
+      parts.pop_back();
+      if (part.bound <= more_than(result_.by_triangle[t].distance) || part.halvings == kHalvings) continue;
+      const unsigned apex = opposite_to_longest_side(part);
+      const Vec3 between = 0.5 * (part.corners[next(apex)].point + part.corners[previous(apex)].point);
+      const FarPoint middle = sample(between, part.corners[apex].nearest);
+      ++samples;
+      note(t, middle);
+      for (const unsigned k : {next(apex), previous(apex)}) {
+        Part half = part;
+        half.corners[k] = middle;
+        half.bound = std::min(part.bound, bound_of(half.corners));
+        ++half.halvings;
+        parts.push_back(half);
+      }
+      if (const std::size_t n = parts.size(); parts[n - 1].bound < parts[n - 2].bound)
+        std::swap(parts[n - 1], parts[n - 2]);
+    }
+  }
+
+  [[nodiscard]] static unsigned opposite_to_longest_side(const Part& part) {
+    const auto side = [&](unsigned k) {
+      return (part.corners[next(k)].point - part.corners[previous(k)].point).squaredNorm();
+    };
+    const unsigned apex = side(1) > side(0) ? 1 : 0;
+    return side(2) > side(apex) ? 2 : apex;
+  }
+
+  /// The distance to any one triangle is largest at a corner of a part.
+  [[nodiscard]] double bound_of(const std::array<FarPoint, 3>& corners) const {
+    double least = INFINITY;
+    for (const FarPoint& one : corners) {
+      double largest = 0;
+      for (const FarPoint& corner : corners) largest = std::max(largest, distance(corner, one.nearest));
+      least = std::min(least, largest);
+    }
+    return least;
+  }
+
+  const IndexedSurface& from_;
+  const IndexedSurface& to_;
+  std::span<const Vec3> x_;
+  std::span<const Triangle> triangles_;
+  unsigned threads_;
+  std::vector<FarPoint> vertex_, edge_;
+  OneWayDistance result_;
+};
+
+}  // namespace
+
+OneWayDistance measure_one_way(const IndexedSurface& from, const IndexedSurface& to, unsigned threads) {
+  return Measurement(from, to, threads).run();
+}
+
+}  // namespace isorelax

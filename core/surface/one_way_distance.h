@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/topology.h"
+#include "surface/closest_point.h"
+
+namespace isorelax {
+
+/// A surface whose distance to another one is measured. Keeps references to all that it is made from.
+struct IndexedSurface {
+  IndexedSurface(std::span<const Vec3> x, std::span<const Triangle> t, const Topology& around)
+      : positions(x), triangles(t), topology(around), index(x, t) {}
+
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
+  const Topology& topology;
+  ClosestPointIndex index;
+};
+
+/// The point of a triangle that was found to be farthest from the other surface.
+struct FarPoint {
+  double distance = 0;
+  Vec3 point = Vec3::Zero();
+  Index nearest = kNone;  ///< triangle of the other surface
+};
+
+/// How far one surface is from another.
+struct OneWayDistance {
+  FarPoint farthest;
+  double squares = 0;  ///< integral of the squared distance over the surface that is measured
+  double area = 0;     ///< of that surface
+  std::vector<FarPoint> by_triangle;
+};
+
+/// Measures how far the points of one surface are from another one, by exact closest-point searches.
+///
+/// The integral is from samples: vertices, midpoints of edges, centroids and points inside. The largest
+/// distance is looked for where it can be if the surfaces lie over each other: at the vertices of both and
+/// along all edges, where two triangles' distances bound all between (each is convex), so that edges are
+/// divided until no part of theirs can be farther by more than a thousandth. The 64 triangles with the
+/// largest distances are then searched all over, halved until the same is true of them. Never above the true
+/// distance. The same for any number of threads.
+[[nodiscard]] OneWayDistance measure_one_way(const IndexedSurface& from, const IndexedSurface& to,
+                                             unsigned threads);
+
+}  // namespace isorelax
