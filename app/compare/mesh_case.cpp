@@ -7,7 +7,7 @@
 #include "quality/report.h"
 #include "render/camera.h"
 #include "surface/deviation.h"
-#include "surface/one_way_distance.h"
+#include "surface/surface_distance.h"
 #include "view/picture.h"
 
 namespace isorelax::compare {
@@ -108,8 +108,9 @@ void compare_surfaces(const TriangleMesh& a, const TriangleMesh& b, double diago
   const Topology around_a(a.triangles, a.vertex_count()), around_b(b.triangles, b.vertex_count());
   const IndexedSurface surface_a(a.positions, a.triangles, around_a);
   const IndexedSurface surface_b(b.positions, b.triangles, around_b);
-  const FarPoint there = measure_one_way(surface_a, surface_b, 0).farthest;
-  const FarPoint back = measure_one_way(surface_b, surface_a, 0).farthest;
+  const auto [from_a, from_b] = measure_both_ways(surface_a, surface_b, 0);
+  const FarPoint& there = from_a.farthest;
+  const FarPoint& back = from_b.farthest;
   const double most = std::max(there.distance, back.distance) / diagonal;
   result.figures.push_back(
       {"hausdorff_a_to_b", "Hausdorff distance from A to B, of the diagonal", there.distance / diagonal, {}});

@@ -7,6 +7,7 @@
 #include "model/arguments.h"
 #include "model/timeline_jobs.h"
 #include "model/trace_jobs.h"
+#include "smoothing/limit_choice.h"
 #include "smoothing/surface_watch.h"
 
 namespace isorelax::model {
@@ -208,7 +209,7 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     const std::vector<Vec3>& start = document->mesh().positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
     const double limit = automatic_limit(start, *problem, problem_options(settings));
-    const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem, limit).look(state->positions());
+    const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem).look(state->positions(), limit);
     context.publish(SurfaceMeasured{state->geometry, found.deviation, limit, found.turned_triangles});
   };
 }

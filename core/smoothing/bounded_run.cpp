@@ -117,28 +117,43 @@ struct Attempts {
   const PartObserver& part_observer;
 };
 
-/// One attempt of run_from, whose deviation is not measured yet.
-BoundedResult attempt(const SmoothingProblem& problem, const SurfaceHolds& holds, std::span<Vec3> positions,
-                      const Attempts& attempts, const RunOptions& run_options,
-                      const std::optional<PolishOptions>& polish) {
+/// One attempt of run_from, whose deviation is not measured yet; none where a wider limit is worth it.
+std::optional<BoundedResult> attempt(const SmoothingProblem& problem, const SurfaceHolds& holds,
+                                     std::span<Vec3> positions, const Attempts& attempts,
+                                     const RunOptions& run_options,
+                                     const std::optional<PolishOptions>& polish, WiderLimit* wider) {
   BoundedResult result;
   result.notes = problem.notes;
   result.limits = count_limits(problem.fixed_limits);
   const auto announce = [&](unsigned done, double exponent, bool polishing) {
     if (attempts.part_observer) attempts.part_observer({done, exponent, polishing, holds}, positions);
   };
+  bool too_near = false;
   result.run = run_with_continuation(
       problem, attempts.make_smoother, positions, run_options,
       [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
         result.limits = count_limits(record.limits);
-        return !attempts.observer || attempts.observer(iteration, record, moved);
+        if (attempts.observer && !attempts.observer(iteration, record, moved)) return false;
+        too_near = wider != nullptr && wider->is_worth_it(record, moved);
+        return !too_near;
       },
       [&](unsigned done, double exponent) { announce(done, exponent, false); });
-  if (polish && result.run.stopped != StopReason::cancelled) {
+  if (too_near) return std::nullopt;
+  if (result.run.stopped == StopReason::cancelled) return result;
+  if (wider != nullptr && wider->is_worth_it_at_end(positions)) return std::nullopt;
+  if (polish) {
     announce(result.run.iterations, problem.exponent, true);
     result.polish = run_polish(problem, positions, *polish, result.run.iterations, attempts.observer);
   }
   return result;
+}
+
+/// The limits that may hold, nearest first. High exponents are reached in stages of their own.
+std::vector<double> limits_of(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                              const ProblemOptions& options, const DeviationLimit& limit) {
+  if (limit.max) return {*limit.max};
+  if (problem.exponent > kDefaultExponent) return {automatic_limit(positions, problem, options)};
+  return automatic_limits(positions, problem, options);
 }
 
 /// The smoothing part of run_bounded, with deviations measured against `surface`.
@@ -146,19 +161,40 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
                        const ProblemOptions& options, const Attempts& attempts) {
   const std::vector<Vec3> original(positions.begin(), positions.end());
   const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
-  const double limit = attempts.limit.max ? *attempts.limit.max : automatic_limit(original, unheld, options);
-  const SurfaceWatch watch(surface, original, unheld, limit);
+  const SurfaceWatch watch(surface, original, unheld);
+  std::vector<double> limits = limits_of(original, unheld, options, attempts.limit);
   SurfaceHolds holds = options.holds;
-  holds.distance = watch.largest_distance();
-  // The first attempt mostly is the last. After one that was not, quick tries find what has to be held.
+  const auto problem_within = [&](double distance) {
+    SmoothingProblem problem = unheld;
+    SurfaceHolds all = holds;
+    all.distance = distance;
+    hold(problem, all, original);
+    return problem;
+  };
+  // The first attempt mostly is the last. Some find that the limit should be wider. After one that went too
+  // far all the same, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
-  for (bool trying = false;;) {
-    SmoothingProblem problem = unheld;
-    hold(problem, holds, original);
-    BoundedResult result = attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options,
-                                   trying ? std::nullopt : attempts.polish);
-    const SurfaceWatch::Finding found = watch.look(positions);
+  double share = 1;
+  for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
+    const double limit = limits.front();
+    holds.distance = share * watch.largest_distance(limit);
+    const SmoothingProblem problem = problem_within(holds.distance);
+    std::optional<WiderLimit> wider;
+    if (limits.size() > 1) {
+      wider.emplace(
+          problem, [&] { return problem_within(watch.largest_distance(limits[1])); }, attempts.make_smoother);
+    }
+    std::optional<BoundedResult> ended =
+        attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options,
+                trying ? std::nullopt : attempts.polish, wider ? &*wider : nullptr);
+    if (!ended) {
+      limits.erase(limits.begin());
+      continue;
+    }
+    limits = {limit};
+    BoundedResult& result = *ended;
+    const SurfaceWatch::Finding found = watch.look(positions, limit);
     result.deviation_limit = limit;
     const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
     if (!attempts.limit.max && at_limit > 0) {
@@ -169,9 +205,8 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.deviation = found.deviation;
     const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
-    if (!sound) watch.hold_more(holds, found);
+    if (!sound) watch.hold_more(holds, share, found);
     trying = !sound;
-    std::copy(original.begin(), original.end(), positions.begin());
   }
 }
 

@@ -2,18 +2,16 @@
 
 #include <optional>
 
-#include "smoothing/run.h"
+#include "smoothing/limit_choice.h"
 #include "surface/deviation.h"
 
 namespace isorelax {
 
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
-  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: 0.003,
-  /// more where the mesh is coarse, since two good meshes of one curved surface differ by the height of their
-  /// chords: with the mean c of edge length times dihedral turn over its smooth edges 1.2 c up to 0.005, and
-  /// 0.5 c beyond. With a free border at least a
-  /// mean edge: that is how far its outline may go.
+  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: the
+  /// nearest of automatic_limits under which the mesh gets about as good as under the next one. The last
+  /// stage has the widest of them.
   std::optional<double> max;
 };
 
@@ -25,9 +23,6 @@ struct PolishOptions {
   double obtuse_weight = 2;
   unsigned iterations = 300;
 };
-
-/// Makes the smoother for a problem.
-using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
 
 /// What the steps of a run are made with from some iteration on: enough to make them again.
 struct RunPart {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "quality/inverted.h"
-#include "surface/feature_edges.h"
 
 namespace isorelax {
 namespace {
@@ -19,13 +17,6 @@ constexpr double kNearLimit = 0.9;
 /// the least share of the limit.
 constexpr double kNearer = 0.93;
 constexpr double kLeastShare = 0.7;
-
-double diagonal_of(std::span<const Vec3> positions) {
-  Vec3 low = positions.front();
-  Vec3 high = low;
-  for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (high - low).norm();
-}
 
 /// Vertices of the triangles over the limit, sorted.
 std::vector<Index> vertices_over(const DeviationByTriangle& deviation, std::span<const Triangle> triangles,
@@ -77,36 +68,14 @@ void grow(std::vector<Index>& held, std::span<const Triangle> triangles, std::si
 
 }  // namespace
 
-double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                       const ProblemOptions& options) {
-  constexpr double kFine = 0.003;
-  constexpr double kMedium = 0.005;
-  constexpr double kRadians = std::numbers::pi / 180;
-  double sum = 0;
-  std::size_t count = 0;
-  for (Corner c = 0; c < 3 * problem.triangles.size(); ++c) {
-    if (problem.topology.opposite(c) == kNone || problem.topology.opposite(c) < c) continue;
-    const double turn = dihedral_turn_deg(positions, problem.triangles, problem.topology, c);
-    if (turn >= options.features.ridge_angle_deg) continue;
-    const Triangle& t = problem.triangles[c / 3];
-    sum += kRadians * turn * (positions[t[next(c % 3)]] - positions[t[previous(c % 3)]]).norm();
-    ++count;
-  }
-  const double diagonal = diagonal_of(positions);
-  const double chord = count == 0 ? 0 : sum / (static_cast<double>(count) * diagonal);
-  const double border = options.boundary == BoundaryRule::free ? problem.mean_edge_length / diagonal : 0;
-  return std::max({kFine, std::min(kMedium, 1.2 * chord), 0.5 * chord, border});
-}
-
 SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start,
-                           const SmoothingProblem& problem, double limit)
+                           const SmoothingProblem& problem)
     : surface_(surface),
       start_(start),
       problem_(problem),
-      limit_(limit),
       inverted_(inverted_triangles(start, problem.triangles, problem.topology, problem.threads)) {}
 
-SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions) const {
+SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions, double limit) const {
   Finding found;
   const std::vector<Index> inverted =
       inverted_triangles(positions, problem_.triangles, problem_.topology, problem_.threads);
@@ -116,19 +85,19 @@ SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions) const 
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
                                                                       problem_.topology, problem_.threads);
   found.deviation = deviation.whole;
-  if (deviation.whole.max > limit_)
-    found.far = vertices_over(deviation, problem_.triangles, kNearLimit * limit_);
+  if (deviation.whole.max > limit)
+    found.far = vertices_over(deviation, problem_.triangles, kNearLimit * limit);
   return found;
 }
 
-double SurfaceWatch::largest_distance() const {
-  return kInside * limit_ * diagonal_of(surface_);
+double SurfaceWatch::largest_distance(double limit) const {
+  return kInside * limit * bounding_diagonal(surface_);
 }
 
-void SurfaceWatch::hold_more(SurfaceHolds& holds, const Finding& found) const {
+void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found) const {
   if (add(holds.still, found.turned)) return;
-  if (!found.far.empty() && holds.distance > kLeastShare * largest_distance()) {
-    holds.distance *= kNearer;
+  if (!found.far.empty() && share > kLeastShare) {
+    share *= kNearer;
     return;
   }
   if (add(holds.still, found.far)) return;

@@ -8,10 +8,6 @@
 
 namespace isorelax {
 
-/// The largest deviation for a mesh when nobody stated one; see DeviationLimit.
-[[nodiscard]] double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                                     const ProblemOptions& options);
-
 /// Finds what a run did to the surface that it must not do, and says what to hold so that it does not.
 class SurfaceWatch {
  public:
@@ -23,27 +19,25 @@ class SurfaceWatch {
     std::size_t turned_triangles = 0;
   };
 
-  /// Deviations are measured from `surface`, runs begin at `start`; `limit` is over the diagonal of
-  /// `surface`. Keeps references to all three.
-  SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start, const SmoothingProblem& problem,
-               double limit);
+  /// Deviations are measured from `surface`, runs begin at `start`. Keeps references to all three.
+  SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> start, const SmoothingProblem& problem);
 
-  [[nodiscard]] Finding look(std::span<const Vec3> positions) const;
+  /// `limit` is over the diagonal of the surface.
+  [[nodiscard]] Finding look(std::span<const Vec3> positions, double limit) const;
 
-  /// The largest distance that steps may lead to, in length units.
-  [[nodiscard]] double largest_distance() const;
+  /// The largest distance that steps may lead to under a limit, in length units.
+  [[nodiscard]] double largest_distance(double limit) const;
 
   /// Holds more than was held in vain. Where steps that keep the surface near let it go too far between the
-  /// edges that they look at, they have to keep it nearer; at last vertices do not move at all, as where
-  /// triangles turned over, and then their neighbours neither.
-  void hold_more(SurfaceHolds& holds, const Finding& found) const;
+  /// edges that they look at, they have to keep it nearer, within a smaller share of the largest distance; at
+  /// last vertices do not move at all, as where triangles turned over, and then their neighbours neither.
+  void hold_more(SurfaceHolds& holds, double& share, const Finding& found) const;
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;
-  double limit_;
   std::vector<Index> inverted_;  // at the start
 };
 

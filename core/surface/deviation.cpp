@@ -7,7 +7,7 @@
 
 #include "mesh/degenerate.h"
 #include "mesh/parallel.h"
-#include "surface/one_way_distance.h"
+#include "surface/surface_distance.h"
 
 namespace isorelax {
 namespace {
@@ -40,6 +40,13 @@ double largest_normal_change(std::span<const Vec3> before, std::span<const Vec3>
 
 }  // namespace
 
+double bounding_diagonal(std::span<const Vec3> positions) {
+  if (positions.empty()) return 0;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : positions) box.extend(x);
+  return box.diagonal().norm();
+}
+
 double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                        unsigned threads) {
   if (positions.empty()) return 0;
@@ -68,14 +75,11 @@ DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original
                                                   const Topology& topology, unsigned threads) {
   DeviationByTriangle all{{}, std::vector<double>(triangles.size(), 0)};
   Deviation& result = all.whole;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : original) box.extend(x);
-  if (original.empty() || triangles.empty() || !(box.diagonal().norm() > 0)) return all;
-  const double diagonal = box.diagonal().norm();
+  const double diagonal = bounding_diagonal(original);
+  if (triangles.empty() || !(diagonal > 0)) return all;
   const IndexedSurface then(original, triangles, topology);
   const IndexedSurface now(changed, triangles, topology);
-  const OneWayDistance there = measure_one_way(now, then, threads);
-  const OneWayDistance back = measure_one_way(then, now, threads);
+  const auto [there, back] = measure_both_ways(now, then, threads);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     double& own = all.largest[t];
     own = std::max(own, there.by_triangle[t].distance / diagonal);

@@ -7,6 +7,9 @@
 
 namespace isorelax {
 
+/// Length of the diagonal of the positions' bounding box; 0 of none.
+[[nodiscard]] double bounding_diagonal(std::span<const Vec3> positions);
+
 /// How far a surface whose vertices moved is from what it was.
 struct Deviation {
   double max = 0;  ///< largest distance between the two surfaces, over the original's bounding-box diagonal
@@ -27,8 +30,7 @@ struct Deviation {
 /// For the mean, every vertex, every edge's midpoint, every triangle's centroid and three more points inside,
 /// barycentric (2/3, 1/6, 1/6), are looked at: the mean square weighs each triangle by its area, with the
 /// mean of two quadrature rules that are both exact for quadratics: (vertices 1/20, midpoints 2/15, centroid
-/// 9/20) and the three inner points. The largest distance is found to about a thousandth: see
-/// measure_one_way.
+/// 9/20) and the three inner points. The largest distance is found to about a thousandth: measure_both_ways.
 ///
 /// `topology` is that of `triangles`; all indices below both sizes. The same for any number of threads.
 [[nodiscard]] Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,

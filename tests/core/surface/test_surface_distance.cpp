@@ -1,4 +1,4 @@
-#include "surface/one_way_distance.h"
+#include "surface/surface_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 OneWayDistance measure(const TriangleMesh& from, const TriangleMesh& to, unsigned threads = 1) {
   const Topology around_from(from.triangles, from.vertex_count());
   const Topology around_to(to.triangles, to.vertex_count());
-  return measure_one_way({from.positions, from.triangles, around_from},
-                         {to.positions, to.triangles, around_to}, threads);
+  return measure_both_ways({from.positions, from.triangles, around_from},
+                           {to.positions, to.triangles, around_to}, threads)[0];
 }
 
 /// Largest distance of a grid on every triangle of one surface from the other one.
@@ -40,7 +40,7 @@ void expect_largest(const TriangleMesh& from, const TriangleMesh& to, int steps)
   EXPECT_LE(found, 1.01 * grid);
 }
 
-TEST(OneWayDistance, FindsPeaksBetweenTheSamples) {
+TEST(SurfaceDistance, FindsPeaksBetweenTheSamples) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-0.2, 0.2);
   for (int round = 0; round < 5; ++round) {
@@ -71,14 +71,14 @@ TriangleMesh saddle(unsigned side, double shift_x, double shift_y) {
   return mesh;
 }
 
-TEST(OneWayDistance, FindsPeaksThatAreEverywhere) {
+TEST(SurfaceDistance, FindsPeaksThatAreEverywhere) {
   const TriangleMesh then = saddle(16, 0, 0);
   const TriangleMesh now = saddle(16, 0.5, 0.35);
   expect_largest(then, now, 60);
   expect_largest(now, then, 60);
 }
 
-TEST(OneWayDistance, OfOtherTrianglesNamesTheFarthestPoint) {
+TEST(SurfaceDistance, OfOtherTrianglesNamesTheFarthestPoint) {
   const TriangleMesh low = saddle(2, 0, 0);
   TriangleMesh high = saddle(3, 0, 0);
   high.positions[5].z() = 0.75;
@@ -89,7 +89,7 @@ TEST(OneWayDistance, OfOtherTrianglesNamesTheFarthestPoint) {
               there.distance, 1e-12);
 }
 
-TEST(OneWayDistance, IsTheSameForAnyNumberOfThreads) {
+TEST(SurfaceDistance, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh then = saddle(80, 0, 0);
   const TriangleMesh now = saddle(80, 0.3, 0.4);
   const OneWayDistance one = measure(now, then, 1);

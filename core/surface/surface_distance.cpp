@@ -1,4 +1,4 @@
-#include "surface/one_way_distance.h"
+#include "surface/surface_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -26,12 +26,22 @@ class Measurement {
   Measurement(const IndexedSurface& from, const IndexedSurface& to, unsigned threads)
       : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {}
 
-  OneWayDistance run() {
-    sample_vertices();
+  void sample_vertices() {
+    vertex_.assign(x_.size(), {});
+    parallel_for_blocks(x_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const auto corners = from_.topology.corners_of(static_cast<Index>(v));
+        if (!corners.empty()) vertex_[v] = sample(x_[v], corners[0] / 3);
+      }
+    });
+  }
+
+  /// Once the vertices of both surfaces are sampled.
+  OneWayDistance run(const Measurement& other_way) {
     sample_edges();
     sample_triangles();
-    sample_feet();
     note_largest();
+    sample_under(other_way.vertex_);
     divide_edges();
     search_triangles();
     note_largest();
@@ -60,16 +70,6 @@ class Measurement {
   }
 
   // Samples ------------------------------------------------------------------------------------------------
-
-  void sample_vertices() {
-    vertex_.assign(x_.size(), {});
-    parallel_for_blocks(x_.size(), threads_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const auto corners = from_.topology.corners_of(static_cast<Index>(v));
-        if (!corners.empty()) vertex_[v] = sample(x_[v], corners[0] / 3);
-      }
-    });
-  }
 
   /// The corner that stands for the edge opposite to `corner`: the smaller of the two.
   [[nodiscard]] Corner owner(Corner corner) const {
@@ -132,22 +132,13 @@ class Measurement {
     return 0.5 * (corners / 20 + middles * 2 / 15 + centroid * 9 / 20) + 0.5 * inner / 3;
   }
 
-  /// Over a vertex of the other surface.
-  void sample_feet() {
-    const std::size_t count = to_.positions.size();
-    std::vector<FarPoint> feet(count);
-    std::vector<Index> on(count, kNone);
-    parallel_for_blocks(count, threads_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const auto corners = to_.topology.corners_of(static_cast<Index>(v));
-        if (corners.empty()) continue;
-        const SurfacePoint foot = from_.index.closest(to_.positions[v], corners[0] / 3);
-        on[v] = foot.triangle;
-        feet[v] = sample(foot.point, corners[0] / 3);
-      }
-    });
-    for (std::size_t v = 0; v < count; ++v)
-      if (on[v] != kNone) note(on[v], feet[v]);
+  /// What is closest to a vertex of the other surface is no farther from that surface than from the vertex.
+  void sample_under(std::span<const FarPoint> vertices) {
+    for (const FarPoint& vertex : vertices) {
+      if (vertex.nearest == kNone || vertex.distance <= more_than(result_.farthest.distance)) continue;
+      const SurfacePoint under = closest_point_of_triangle(vertex.point, x_, triangles_, vertex.nearest);
+      note(vertex.nearest, sample(under.point, kNone));
+    }
   }
 
   // The largest distance -----------------------------------------------------------------------------------
@@ -248,8 +239,12 @@ class Measurement {
 
 }  // namespace
 
-OneWayDistance measure_one_way(const IndexedSurface& from, const IndexedSurface& to, unsigned threads) {
-  return Measurement(from, to, threads).run();
+std::array<OneWayDistance, 2> measure_both_ways(const IndexedSurface& a, const IndexedSurface& b,
+                                                unsigned threads) {
+  Measurement there(a, b, threads), back(b, a, threads);
+  there.sample_vertices();
+  back.sample_vertices();
+  return {there.run(back), back.run(there)};
 }
 
 }  // namespace isorelax

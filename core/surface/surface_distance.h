@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct OneWayDistance {
   std::vector<FarPoint> by_triangle;
 };
 
-/// Measures how far the points of one surface are from another one, by exact closest-point searches.
+/// Measures how far the points of surface a are from surface b, and those of b from a, by exact closest-point
+/// searches.
 ///
 /// The integral is from samples: vertices, midpoints of edges, centroids and points inside. The largest
 /// distance is looked for where it can be if the surfaces lie over each other: at the vertices of both and
@@ -42,7 +44,7 @@ struct OneWayDistance {
 /// divided until no part of theirs can be farther by more than a thousandth. The 64 triangles with the
 /// largest distances are then searched all over, halved until the same is true of them. Never above the true
 /// distance. The same for any number of threads.
-[[nodiscard]] OneWayDistance measure_one_way(const IndexedSurface& from, const IndexedSurface& to,
-                                             unsigned threads);
+[[nodiscard]] std::array<OneWayDistance, 2> measure_both_ways(const IndexedSurface& a,
+                                                              const IndexedSurface& b, unsigned threads);
 
 }  // namespace isorelax
