@@ -117,34 +117,25 @@ struct Attempts {
   const PartObserver& part_observer;
 };
 
-/// One attempt of run_from, whose deviation is not measured yet; none where a wider limit is worth it.
-std::optional<BoundedResult> attempt(const SmoothingProblem& problem, const SurfaceHolds& holds,
-                                     std::span<Vec3> positions, const Attempts& attempts,
-                                     const RunOptions& run_options,
-                                     const std::optional<PolishOptions>& polish, WiderLimit* wider) {
+void announce(const Attempts& attempts, const RunPart& part, std::span<const Vec3> positions) {
+  if (attempts.part_observer) attempts.part_observer(part, positions);
+}
+
+/// One attempt of run_from, not polished, whose deviation is not measured yet.
+BoundedResult attempt(const SmoothingProblem& problem, const SurfaceHolds& holds, std::span<Vec3> positions,
+                      const Attempts& attempts, const RunOptions& run_options) {
   BoundedResult result;
   result.notes = problem.notes;
   result.limits = count_limits(problem.fixed_limits);
-  const auto announce = [&](unsigned done, double exponent, bool polishing) {
-    if (attempts.part_observer) attempts.part_observer({done, exponent, polishing, holds}, positions);
-  };
-  bool too_near = false;
   result.run = run_with_continuation(
       problem, attempts.make_smoother, positions, run_options,
       [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
         result.limits = count_limits(record.limits);
-        if (attempts.observer && !attempts.observer(iteration, record, moved)) return false;
-        too_near = wider != nullptr && wider->is_worth_it(record, moved);
-        return !too_near;
+        return !attempts.observer || attempts.observer(iteration, record, moved);
       },
-      [&](unsigned done, double exponent) { announce(done, exponent, false); });
-  if (too_near) return std::nullopt;
-  if (result.run.stopped == StopReason::cancelled) return result;
-  if (wider != nullptr && wider->is_worth_it_at_end(positions)) return std::nullopt;
-  if (polish) {
-    announce(result.run.iterations, problem.exponent, true);
-    result.polish = run_polish(problem, positions, *polish, result.run.iterations, attempts.observer);
-  }
+      [&](unsigned done, double exponent) {
+        announce(attempts, {done, exponent, false, holds}, positions);
+      });
   return result;
 }
 
@@ -163,45 +154,46 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
   const SurfaceWatch watch(surface, original, unheld);
   std::vector<double> limits = limits_of(original, unheld, options, attempts.limit);
+  const double widest = limits.back();
   SurfaceHolds holds = options.holds;
-  const auto problem_within = [&](double distance) {
+  double share = 1;  // of the largest distance
+  const auto hold_within = [&](double limit) {
+    holds.distance = share * watch.largest_distance(limit);
     SmoothingProblem problem = unheld;
-    SurfaceHolds all = holds;
-    all.distance = distance;
-    hold(problem, all, original);
+    hold(problem, holds, original);
     return problem;
   };
   // The first attempt mostly is the last. Some find that the limit should be wider. After one that went too
   // far all the same, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
-  double share = 1;
   for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
-    const double limit = limits.front();
-    holds.distance = share * watch.largest_distance(limit);
-    const SmoothingProblem problem = problem_within(holds.distance);
-    std::optional<WiderLimit> wider;
-    if (limits.size() > 1) {
-      wider.emplace(
-          problem, [&] { return problem_within(watch.largest_distance(limits[1])); }, attempts.make_smoother);
-    }
-    std::optional<BoundedResult> ended =
-        attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options,
-                trying ? std::nullopt : attempts.polish, wider ? &*wider : nullptr);
-    if (!ended) {
-      limits.erase(limits.begin());
+    double limit = limits.front();
+    const SmoothingProblem problem = hold_within(limit);
+    BoundedResult result =
+        attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options);
+    const bool cancelled = result.run.stopped == StopReason::cancelled;
+    const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
+    if (limit < widest && at_limit > 0 && !cancelled && !trying &&
+        wider_limit_pays(hold_within(widest), attempts.make_smoother, positions)) {
+      limits = {widest};
       continue;
     }
     limits = {limit};
-    BoundedResult& result = *ended;
-    const SurfaceWatch::Finding found = watch.look(positions, limit);
-    result.deviation_limit = limit;
-    const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
     if (!attempts.limit.max && at_limit > 0) {
       result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
                              " at --max-deviation, here " + short_text(limit) +
                              ": they would have led farther from the input");
     }
+    if (attempts.polish && !trying && !cancelled) {
+      limit = widest;
+      const SmoothingProblem wider = hold_within(limit);
+      announce(attempts, {result.run.iterations, problem.exponent, true, holds}, positions);
+      result.polish =
+          run_polish(wider, positions, *attempts.polish, result.run.iterations, attempts.observer);
+    }
+    const SurfaceWatch::Finding found = watch.look(positions, limit);
+    result.deviation_limit = limit;
     result.deviation = found.deviation;
     const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
