@@ -39,9 +39,10 @@ void SmoothRun::declare(CLI::App& app) {
          "The mean of the triangles' smallest angles falls by no more in that stage, degrees (default 1)")
       ->type_name("DEG")
       ->check(number_between(0, 60));
-  app.add_option("--max-deviation", limit_.max,
-                 "Largest distance from the input surface, of its bounding-box diagonal (default 0.003, "
-                 "more where the mesh is coarse; inf: any)")
+  app.add_option(
+         "--max-deviation", limit_.max,
+         "Largest distance from the input surface, of its bounding-box diagonal (default: as near as costs "
+         "little, 0.003 at most, more where the mesh is coarse; inf: any)")
       ->type_name("D")
       ->check(number_between(0, std::numeric_limits<double>::infinity()));
   for (const CLI::Option* option : app.get_options()) {

@@ -10,8 +10,7 @@ namespace isorelax {
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
   /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: the
-  /// nearest of automatic_limits under which the mesh gets about as good as under the next one. The last
-  /// stage has the widest of them.
+  /// nearest of automatic_limits, unless a wider one pays. The last stage has the widest of them.
   std::optional<double> max;
 };
 
@@ -62,11 +61,12 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
                                 const std::function<void(unsigned done, double exponent)>& on_stage = {});
 
 /// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. Every step
-/// keeps the limit (SurfaceLimit). Should the result be farther all the same, the run is done again from the
-/// start with steps that keep the surface nearer, and at last with vertices held still: in the end the limit
-/// holds, if with everything held. So it goes where a triangle lies upside down (inverted_triangles) that did
-/// not before. Where no exponent is asked for, it is 2, or 1 where that would lower the mean of the
-/// triangles' smallest angles. Throws as make_problem.
+/// keeps the limit (SurfaceLimit). A run under an automatic limit that turns out to be too near
+/// (wider_limit_pays) is done again from the start under the wider one. Should the result be farther than the
+/// limit all the same, the run is done again with steps that keep the surface nearer, and at last with
+/// vertices held still: in the end the limit holds, if with everything held. So it goes where a triangle lies
+/// upside down (inverted_triangles) that did not before. Where no exponent is asked for, it is 2, or 1 where
+/// that would lower the mean of the triangles' smallest angles. Throws as make_problem.
 ///
 /// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
 /// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of

@@ -19,9 +19,9 @@ using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingP
 [[nodiscard]] double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
                                      const ProblemOptions& options);
 
-/// The limits that a run may begin under, nearest first, and that one at last: c, where that is no more than
-/// 0.7 of it. One alone where nothing can leave the surface, where vertices are not brought back to it, or
-/// where the border is free.
+/// The limits that a run may begin under, nearest first, and that one at last: c, but no less than an eighth
+/// of it. That one alone where c is more than 0.7 of it, where nothing can leave the surface, where vertices
+/// are not brought back to it, or where the border is free.
 [[nodiscard]] std::vector<double> automatic_limits(std::span<const Vec3> positions,
                                                    const SmoothingProblem& problem,
                                                    const ProblemOptions& options);

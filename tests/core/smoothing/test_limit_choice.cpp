@@ -1,0 +1,97 @@
+#include "smoothing/limit_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generate/generate.h"
+#include "quality/report.h"
+#include "smoothing/bounded_run.h"
+
+namespace isorelax {
+namespace {
+
+std::vector<double> limits_of(const TriangleMesh& mesh, const ProblemOptions& options = {}) {
+  return automatic_limits(mesh.positions, make_problem(mesh.positions, mesh.triangles, options), options);
+}
+
+struct Smoothed {
+  QualityReport quality;
+  BoundedResult result;
+  std::size_t attempts = 0;
+};
+
+Smoothed smooth(TriangleMesh mesh, const DeviationLimit& limit,
+                const std::optional<PolishOptions>& polish = {}) {
+  Smoothed smoothed;
+  smoothed.result = run_bounded(
+      mesh.positions, mesh.triangles, {},
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, limit,
+      {}, polish, [&](const RunPart& part, auto) { smoothed.attempts += part.done == 0 ? 1 : 0; });
+  smoothed.quality = measure_quality(mesh);
+  return smoothed;
+}
+
+TriangleMesh sphere() {
+  return generate(ShapeKind::random_sphere, {.seed = 3, .vertices = 2000});
+}
+
+/// Flat but for a bump in the middle, whose triangles are much higher than those of the mean.
+TriangleMesh bump(double height = 0.25) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 5, .triangles = 1200});
+  for (Vec3& x : mesh.positions) {
+    const double squared = (x - Vec3(0.5, 0.5, 0)).squaredNorm();
+    x.z() = height * std::exp(-squared / 0.02);
+  }
+  return mesh;
+}
+
+TEST(LimitChoice, FineSurfacesHaveANearerLimit) {
+  const std::vector<double> limits = limits_of(sphere());
+  ASSERT_EQ(limits.size(), 2U);
+  EXPECT_LT(limits[0], 0.5 * limits[1]);
+  EXPECT_EQ(limits[1], 0.003);
+  EXPECT_EQ(limits_of(bump(0.02)), (std::vector<double>{0.003 / 8, 0.003}));
+}
+
+TEST(LimitChoice, CoarseSurfacesPlanesAndFreeBordersDoNot) {
+  EXPECT_EQ(limits_of(generate(ShapeKind::sphere, {.vertices = 200})).size(), 1U);
+  EXPECT_EQ(limits_of(generate(ShapeKind::random_square, {.triangles = 200})).size(), 1U);
+  EXPECT_EQ(limits_of(bump(), {.boundary = BoundaryRule::free}).size(), 1U);
+  EXPECT_EQ(limits_of(sphere(), {.surface = SurfaceRule::tangent}).size(), 1U);
+}
+
+TEST(LimitChoice, ASphereStaysNearSinceThatCostsNothing) {
+  const Smoothed wide = smooth(sphere(), {0.003});
+  const Smoothed chosen = smooth(sphere(), {});
+  EXPECT_EQ(chosen.attempts, 1U);
+  EXPECT_EQ(chosen.result.deviation_limit, limits_of(sphere())[0]);
+  EXPECT_LE(chosen.result.deviation.max, chosen.result.deviation_limit);
+  EXPECT_LT(chosen.result.deviation.max, 0.85 * wide.result.deviation.max);
+  EXPECT_GT(chosen.quality.min_angle_deg, wide.quality.min_angle_deg - 1);
+  EXPECT_LT(chosen.quality.max_angle_deg, wide.quality.max_angle_deg + 2);
+  EXPECT_GT(chosen.quality.mean_min_angle_deg, wide.quality.mean_min_angle_deg - 0.1);
+}
+
+TEST(LimitChoice, ABumpGetsTheWiderLimitSinceThatPays) {
+  const Smoothed near = smooth(bump(), {limits_of(bump())[0]});
+  const Smoothed wide = smooth(bump(), {0.003});
+  ASSERT_GT(wide.quality.min_angle_deg, near.quality.min_angle_deg + 1);
+  const Smoothed chosen = smooth(bump(), {});
+  EXPECT_EQ(chosen.attempts, 2U);
+  EXPECT_EQ(chosen.result.deviation_limit, 0.003);
+  EXPECT_EQ(chosen.quality.min_angle_deg, wide.quality.min_angle_deg);
+  EXPECT_EQ(chosen.quality.mean_min_angle_deg, wide.quality.mean_min_angle_deg);
+}
+
+TEST(LimitChoice, ThePolishMayGoToTheWiderLimit) {
+  const Smoothed run = smooth(sphere(), {});
+  const Smoothed polished = smooth(sphere(), {}, PolishOptions{});
+  EXPECT_EQ(polished.result.run.iterations, run.result.run.iterations);
+  EXPECT_EQ(polished.result.deviation_limit, 0.003);
+  EXPECT_GT(polished.quality.min_angle_deg, run.quality.min_angle_deg);
+  EXPECT_LT(polished.quality.max_angle_deg, run.quality.max_angle_deg);
+}
+
+}  // namespace
+}  // namespace isorelax
