@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "smoothing/objective.h"
 
@@ -13,6 +14,14 @@ constexpr double kSettled = 1e-3;
 
 /// Steps in a row that have to gain next to nothing: a single one may have been cut back.
 constexpr unsigned kIdleSteps = 5;
+
+/// What a decrease of the energy is measured against: the energy itself, but no more than twice the least
+/// that a mesh of so many triangles can have. Slivers that nothing can be done about may have a million times
+/// that, and all others would still get better.
+double energy_scale(const SmoothingProblem& problem, double energy) {
+  const double least = std::pow(2 * (problem.weights.shape + problem.weights.area), problem.exponent);
+  return std::min(energy, 2 * least * static_cast<double>(problem.triangle_count()));
+}
 
 /// The stop that the last record asks for, if any.
 std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord& record,
@@ -94,7 +103,8 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
     }
     result.after = record.after;
     result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
-    result.energy_change = (record.before.energy - record.after.energy) / record.before.energy;
+    result.energy_change =
+        (record.before.energy - record.after.energy) / energy_scale(problem, record.before.energy);
     idle_steps = result.energy_change <= options.tolerance ? idle_steps + 1 : 0;
     result.relative_move = record.largest_move / problem.mean_edge_length;
     if (observer && !observer(result.iterations, record, positions)) {

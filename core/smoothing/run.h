@@ -93,8 +93,8 @@ std::string_view name_of(StopReason reason);
 struct RunOptions {
   unsigned iterations = 1000;
   /// Relative threshold of all three tests: gradient norm against its start, energy decrease against the
-  /// energy in five steps in a row, largest move against the mean edge length. 0: only the iteration count
-  /// stops the run.
+  /// energy (RunResult::energy_change) in five steps in a row, largest move against the mean edge length. 0:
+  /// only the iteration count stops the run.
   double tolerance = 1e-6;
 };
 
@@ -104,8 +104,10 @@ struct RunResult {
   double seconds = 0;
   StepTotals before, after;
   double gradient_ratio = 0;  ///< last tangent gradient norm over the first
-  double energy_change = 0;   ///< last relative decrease of the energy
-  double relative_move = 0;   ///< last largest move over the mean edge length
+  /// Last decrease of the energy, relative to it, but to no more than twice the least energy that so many
+  /// triangles can have: slivers must not hide what the others gain.
+  double energy_change = 0;
+  double relative_move = 0;  ///< last largest move over the mean edge length
 };
 
 /// Called after each accepted step, with the positions already moved; returning false stops the run.

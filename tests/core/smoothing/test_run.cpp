@@ -54,6 +54,29 @@ TEST(Run, StopsWhenConverged) {
   EXPECT_NE(result.stopped, StopReason::iterations);
 }
 
+TEST(Run, ASliverThatCannotGetBetterDoesNotEndIt) {
+  const TriangleMesh clean = generate(ShapeKind::random_square, {.seed = 2, .triangles = 400});
+  TriangleMesh flawed = clean;
+  const auto& x = clean.positions;
+  for (const Triangle& t : clean.triangles) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Index a = t[k], b = t[next(k)];
+      if (x[a].y() != 0 || x[b].y() != 0 || flawed.positions.size() > x.size()) continue;
+      flawed.triangles.push_back({b, a, flawed.vertex_count()});
+      flawed.positions.emplace_back(0.5 * (x[a] + x[b]) - Vec3(0, 1e-7, 0));
+    }
+  }
+  ASSERT_EQ(flawed.triangle_count(), clean.triangle_count() + 1);
+  const auto converge = [](TriangleMesh mesh) {
+    const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
+    const RunResult result =
+        run(*make_smoother(problem, Solver::automatic), problem, mesh.positions, {.iterations = 500});
+    EXPECT_NE(result.stopped, StopReason::iterations);
+    return measure_quality(mesh).mean_min_angle_deg * static_cast<double>(mesh.triangle_count());
+  };
+  EXPECT_NEAR(converge(flawed), converge(clean), 0.02 * static_cast<double>(clean.triangle_count()));
+}
+
 TEST(Run, SaysThatNothingMayMove) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
