@@ -208,7 +208,7 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     context.progress("Measuring the distance from the original", -1);
     const std::vector<Vec3>& start = document->mesh().positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
-    const double limit = automatic_limit(start, *problem, problem_options(settings));
+    const double limit = automatic_limits(start, *problem, problem_options(settings)).widest;
     const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem).look(state->positions(), limit);
     context.publish(SurfaceMeasured{state->geometry, found.deviation, limit, found.turned_triangles});
   };

@@ -139,12 +139,13 @@ BoundedResult attempt(const SmoothingProblem& problem, const SurfaceHolds& holds
   return result;
 }
 
-/// The limits that may hold, nearest first. High exponents are reached in stages of their own.
-std::vector<double> limits_of(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                              const ProblemOptions& options, const DeviationLimit& limit) {
-  if (limit.max) return {*limit.max};
-  if (problem.exponent > kDefaultExponent) return {automatic_limit(positions, problem, options)};
-  return automatic_limits(positions, problem, options);
+/// The limits that may hold. High exponents are reached in stages of their own.
+AutomaticLimits limits_of(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                          const ProblemOptions& options, const DeviationLimit& limit) {
+  if (limit.max) return {*limit.max, *limit.max};
+  AutomaticLimits limits = automatic_limits(positions, problem, options);
+  if (problem.exponent > kDefaultExponent) limits.nearest = limits.widest;
+  return limits;
 }
 
 /// The smoothing part of run_bounded, with deviations measured against `surface`.
@@ -153,12 +154,11 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const std::vector<Vec3> original(positions.begin(), positions.end());
   const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
   const SurfaceWatch watch(surface, original, unheld);
-  std::vector<double> limits = limits_of(original, unheld, options, attempts.limit);
-  const double widest = limits.back();
+  auto [limit, widest] = limits_of(original, unheld, options, attempts.limit);
   SurfaceHolds holds = options.holds;
   double share = 1;  // of the largest distance
-  const auto hold_within = [&](double limit) {
-    holds.distance = share * watch.largest_distance(limit);
+  const auto hold_within = [&](double deviation) {
+    holds.distance = share * watch.largest_distance(deviation);
     SmoothingProblem problem = unheld;
     hold(problem, holds, original);
     return problem;
@@ -168,32 +168,31 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
   for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
-    double limit = limits.front();
-    const SmoothingProblem problem = hold_within(limit);
+    SmoothingProblem problem = hold_within(limit);
     BoundedResult result =
         attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options);
     const bool cancelled = result.run.stopped == StopReason::cancelled;
     const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
     if (limit < widest && at_limit > 0 && !cancelled && !trying &&
         wider_limit_pays(hold_within(widest), attempts.make_smoother, positions)) {
-      limits = {widest};
+      limit = widest;
       continue;
     }
-    limits = {limit};
+    double held_to = limit;
     if (!attempts.limit.max && at_limit > 0) {
       result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
                              " at --max-deviation, here " + short_text(limit) +
                              ": they would have led farther from the input");
     }
     if (attempts.polish && !trying && !cancelled) {
-      limit = widest;
-      const SmoothingProblem wider = hold_within(limit);
+      if (limit < widest) problem = hold_within(widest);
+      held_to = widest;
       announce(attempts, {result.run.iterations, problem.exponent, true, holds}, positions);
       result.polish =
-          run_polish(wider, positions, *attempts.polish, result.run.iterations, attempts.observer);
+          run_polish(problem, positions, *attempts.polish, result.run.iterations, attempts.observer);
     }
-    const SurfaceWatch::Finding found = watch.look(positions, limit);
-    result.deviation_limit = limit;
+    const SurfaceWatch::Finding found = watch.look(positions, held_to);
+    result.deviation_limit = held_to;
     result.deviation = found.deviation;
     const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;

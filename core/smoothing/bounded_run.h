@@ -10,7 +10,7 @@ namespace isorelax {
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
   /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: the
-  /// nearest of automatic_limits, unless a wider one pays. The last stage has the widest of them.
+  /// nearest of automatic_limits, or the widest where that pays. The last stage has the widest.
   std::optional<double> max;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "quality/report.h"
 #include "surface/deviation.h"
@@ -41,23 +42,16 @@ double mean_chord(std::span<const Vec3> positions, const SmoothingProblem& probl
 
 }  // namespace
 
-double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                       const ProblemOptions& options) {
-  return automatic_limits(positions, problem, options).back();
-}
-
-std::vector<double> automatic_limits(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                                     const ProblemOptions& options) {
+AutomaticLimits automatic_limits(std::span<const Vec3> positions, const SmoothingProblem& problem,
+                                 const ProblemOptions& options) {
   const double chord = mean_chord(positions, problem, options);
   const bool free_border = options.boundary == BoundaryRule::free;
   const double border = free_border ? problem.mean_edge_length / bounding_diagonal(positions) : 0;
   const double widest = std::max({kFine, std::min(kMedium, 1.2 * chord), 0.5 * chord, border});
-  std::vector<double> limits;
-  const bool may_be_nearer = !problem.plane_normal && !free_border && options.surface == SurfaceRule::project;
-  if (may_be_nearer && chord <= kLargestShareOfWidest * widest)
-    limits.push_back(std::max(chord, kLeastShareOfWidest * widest));
-  limits.push_back(widest);
-  return limits;
+  const bool may_be_nearer = !problem.plane_normal && !free_border &&
+                             options.surface == SurfaceRule::project &&
+                             chord <= kLargestShareOfWidest * widest;
+  return {may_be_nearer ? std::max(chord, kLeastShareOfWidest * widest) : widest, widest};
 }
 
 bool wider_limit_pays(const SmoothingProblem& wider, const SmootherFactory& make_smoother,

@@ -3,7 +3,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "smoothing/run.h"
 
@@ -12,19 +11,21 @@ namespace isorelax {
 /// Makes the smoother for a problem.
 using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
 
-/// The largest deviation for a mesh when nobody stated one, over the bounding-box diagonal: 0.003, more where
-/// the mesh is coarse, since two good meshes of one curved surface differ by the height of their chords: with
-/// the mean c of edge length times dihedral turn over its smooth edges 1.2 c up to 0.005, and 0.5 c beyond.
-/// With a free border at least a mean edge: that is how far its outline may go.
-[[nodiscard]] double automatic_limit(std::span<const Vec3> positions, const SmoothingProblem& problem,
-                                     const ProblemOptions& options);
-
-/// The limits that a run may begin under, nearest first, and that one at last: c, but no less than an eighth
-/// of it. That one alone where c is more than 0.7 of it, where nothing can leave the surface, where vertices
-/// are not brought back to it, or where the border is free.
-[[nodiscard]] std::vector<double> automatic_limits(std::span<const Vec3> positions,
-                                                   const SmoothingProblem& problem,
-                                                   const ProblemOptions& options);
+/// The largest deviations for a mesh when nobody stated one, over the bounding-box diagonal, with c the mean
+/// of edge length times dihedral turn over the smooth edges.
+struct AutomaticLimits {
+  /// To begin under: c, but no less than an eighth of the widest. The widest itself where c is more than 0.7
+  /// of it, where nothing can leave the surface, where vertices are not brought back to it, or where the
+  /// border is free.
+  double nearest;
+  /// 0.003, more where the mesh is coarse, since two good meshes of one curved surface differ by the height
+  /// of their chords: 1.2 c up to 0.005, and 0.5 c beyond. With a free border at least a mean edge: that is
+  /// how far its outline may go.
+  double widest;
+};
+[[nodiscard]] AutomaticLimits automatic_limits(std::span<const Vec3> positions,
+                                               const SmoothingProblem& problem,
+                                               const ProblemOptions& options);
 
 /// Whether a run that ended at `positions` should be done under a wider limit: whether a few steps from there
 /// with the wider problem make a much better mesh, by a degree of the smallest angle, two of the largest, or

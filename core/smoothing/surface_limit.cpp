@@ -119,32 +119,20 @@ bool SurfaceLimit::is_near_still(const Line& line) const {
          });
 }
 
-/// The larger of the distances between two samples cannot exceed: what the triangles nearest to both allow,
-/// and the share of the way between them where that is.
-SurfaceLimit::Sample SurfaceLimit::bound_between(const View& view, const Sample& a, const Sample& b) const {
-  const auto [near_a, at_a] = a.foot;
-  const auto [near_b, at_b] = b.foot;
-  const Sample ends = at_a < at_b ? Sample{1, b.foot} : Sample{0, a.foot};
-  if (near_a == near_b) return ends;
-  const auto distance = [&](const Sample& at, Index triangle) {
-    return closest_point_of_triangle(view.at(at.share), view.surface, problem_.triangles, triangle).distance;
+LineBound SurfaceLimit::bound(const View& view, const Sample& a, const Sample& b) const {
+  const auto distance = [&](const Sample& at, const Foot& other) {
+    if (at.foot.triangle == other.triangle) return at.foot.distance;
+    return closest_point_of_triangle(view.at(at.share), view.surface, problem_.triangles, other.triangle)
+        .distance;
   };
-  const double a_at_b = distance(b, near_a);
-  const double b_at_a = distance(a, near_b);
-  const double left = b_at_a - at_a;
-  const double right = a_at_b - at_b;
-  if (!(left > 0 && right > 0)) return ends;
-  // Along the way one bound goes from at_a to a_at_b, the other from b_at_a to at_b.
-  const double share = left / (left + right);
-  const double crossing = at_a + share * (a_at_b - at_a);
-  return crossing > ends.foot.distance ? Sample{share, {near_a, crossing}} : ends;
+  return bound_between(a.foot.distance, distance(b, a.foot), distance(a, b.foot), b.foot.distance);
 }
 
 bool SurfaceLimit::is_near(const View& view, const Sample& a, const Sample& b, unsigned divisions,
                            Line& line) const {
-  const Sample most = bound_between(view, a, b);
-  if (most.foot.distance <= proven_) {
-    line.bound = std::max(line.bound, most.foot.distance);
+  const LineBound most = bound(view, a, b);
+  if (most.distance <= proven_) {
+    line.bound = std::max(line.bound, most.distance);
     if (!view.now) {
       for (const Index t : {a.foot.triangle, b.foot.triangle})
         for (const Index v : problem_.triangles[t]) note_use(line, v);

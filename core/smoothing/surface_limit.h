@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "smoothing/problem.h"
+#include "surface/line_bound.h"
 
 namespace isorelax {
 
@@ -83,7 +84,7 @@ class SurfaceLimit {
   void measure(std::size_t id, std::span<const Vec3> x, const std::array<Foot, 2>& ends);
   [[nodiscard]] bool is_near(const View& view, const Sample& a, const Sample& b, unsigned divisions,
                              Line& line) const;
-  [[nodiscard]] Sample bound_between(const View& view, const Sample& a, const Sample& b) const;
+  [[nodiscard]] LineBound bound(const View& view, const Sample& a, const Sample& b) const;
   void note_use(Line& line, Index vertex) const;
   void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;
 

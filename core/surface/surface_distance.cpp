@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/parallel.h"
+#include "surface/line_bound.h"
 
 namespace isorelax {
 namespace {
@@ -157,17 +158,14 @@ class Measurement {
     });
   }
 
-  /// Where one bound on the distances between a and b, from the triangle nearest to a, meets the other one.
+  /// Looks between two points of an edge for what is farther than all before.
   void divide(const FarPoint& a, const FarPoint& b, unsigned divisions, FarPoint& peak) const {
-    const double a_at_b = distance(b, a.nearest);
-    const double b_at_a = distance(a, b.nearest);
-    const double left = b_at_a - a.distance;
-    const double right = a_at_b - b.distance;
-    const double share = left + right > 0 ? left / (left + right) : 0.5;
-    const double bound = std::max({a.distance, b.distance, a.distance + share * (a_at_b - a.distance)});
-    if (divisions == 0 || bound <= more_than(std::max(result_.farthest.distance, peak.distance))) return;
-    const double part = std::clamp(share, kLeastPart, 1 - kLeastPart);
-    const FarPoint between = sample((1 - part) * a.point + part * b.point, a.nearest);
+    const LineBound most =
+        bound_between(a.distance, distance(b, a.nearest), distance(a, b.nearest), b.distance);
+    if (divisions == 0 || most.distance <= more_than(std::max(result_.farthest.distance, peak.distance)))
+      return;
+    const double share = std::clamp(most.share, kLeastPart, 1 - kLeastPart);
+    const FarPoint between = sample((1 - share) * a.point + share * b.point, a.nearest);
     if (between.distance > peak.distance) peak = between;
     divide(a, between, divisions - 1, peak);
     divide(between, b, divisions - 1, peak);

@@ -11,7 +11,7 @@
 namespace isorelax {
 namespace {
 
-std::vector<double> limits_of(const TriangleMesh& mesh, const ProblemOptions& options = {}) {
+AutomaticLimits limits_of(const TriangleMesh& mesh, const ProblemOptions& options = {}) {
   return automatic_limits(mesh.positions, make_problem(mesh.positions, mesh.triangles, options), options);
 }
 
@@ -47,25 +47,24 @@ TriangleMesh bump(double height = 0.25) {
 }
 
 TEST(LimitChoice, FineSurfacesHaveANearerLimit) {
-  const std::vector<double> limits = limits_of(sphere());
-  ASSERT_EQ(limits.size(), 2U);
-  EXPECT_LT(limits[0], 0.5 * limits[1]);
-  EXPECT_EQ(limits[1], 0.003);
-  EXPECT_EQ(limits_of(bump(0.02)), (std::vector<double>{0.003 / 8, 0.003}));
+  EXPECT_LT(limits_of(sphere()).nearest, 0.5 * 0.003);
+  EXPECT_EQ(limits_of(sphere()).widest, 0.003);
+  EXPECT_EQ(limits_of(bump(0.02)).nearest, 0.003 / 8);
 }
 
 TEST(LimitChoice, CoarseSurfacesPlanesAndFreeBordersDoNot) {
-  EXPECT_EQ(limits_of(generate(ShapeKind::sphere, {.vertices = 200})).size(), 1U);
-  EXPECT_EQ(limits_of(generate(ShapeKind::random_square, {.triangles = 200})).size(), 1U);
-  EXPECT_EQ(limits_of(bump(), {.boundary = BoundaryRule::free}).size(), 1U);
-  EXPECT_EQ(limits_of(sphere(), {.surface = SurfaceRule::tangent}).size(), 1U);
+  for (const AutomaticLimits& limits : {limits_of(generate(ShapeKind::sphere, {.vertices = 200})),
+                                        limits_of(generate(ShapeKind::random_square, {.triangles = 200})),
+                                        limits_of(bump(), {.boundary = BoundaryRule::free}),
+                                        limits_of(sphere(), {.surface = SurfaceRule::tangent})})
+    EXPECT_EQ(limits.nearest, limits.widest);
 }
 
 TEST(LimitChoice, ASphereStaysNearSinceThatCostsNothing) {
   const Smoothed wide = smooth(sphere(), {0.003});
   const Smoothed chosen = smooth(sphere(), {});
   EXPECT_EQ(chosen.attempts, 1U);
-  EXPECT_EQ(chosen.result.deviation_limit, limits_of(sphere())[0]);
+  EXPECT_EQ(chosen.result.deviation_limit, limits_of(sphere()).nearest);
   EXPECT_LE(chosen.result.deviation.max, chosen.result.deviation_limit);
   EXPECT_LT(chosen.result.deviation.max, 0.85 * wide.result.deviation.max);
   EXPECT_GT(chosen.quality.min_angle_deg, wide.quality.min_angle_deg - 1);
@@ -74,7 +73,7 @@ TEST(LimitChoice, ASphereStaysNearSinceThatCostsNothing) {
 }
 
 TEST(LimitChoice, ABumpGetsTheWiderLimitSinceThatPays) {
-  const Smoothed near = smooth(bump(), {limits_of(bump())[0]});
+  const Smoothed near = smooth(bump(), {limits_of(bump()).nearest});
   const Smoothed wide = smooth(bump(), {0.003});
   ASSERT_GT(wide.quality.min_angle_deg, near.quality.min_angle_deg + 1);
   const Smoothed chosen = smooth(bump(), {});

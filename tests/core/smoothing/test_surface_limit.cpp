@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "generate/generate.h"
+#include "core/surface/shapes.h"
 #include "smoothing/run.h"
 
 namespace isorelax {
@@ -146,26 +146,12 @@ double farthest(std::span<const Vec3> from, std::span<const Vec3> to, std::span<
 }
 
 TEST(SurfaceLimit, TellsWhatIsTooFarWhereEdgesCrossThoughAllVerticesAreNear) {
-  // A saddle, z = xy turned by 45 degrees: along x edges lie over it, along y under it, along diagonals on
-  // it. Moved by half an edge both ways, vertices come over diagonals, and edges along x over edges along y.
-  constexpr Index kSide = 10;
-  const auto on_saddle = [](double i, double j) {
-    const double x = i - 0.5 * kSide, y = j - 0.5 * kSide;
-    return Vec3(x, y, 0.02 * (x * x - y * y));
-  };
-  std::vector<Vec3> x, moved;
-  std::vector<Triangle> triangles;
-  for (Index j = 0; j <= kSide; ++j) {
-    for (Index i = 0; i <= kSide; ++i) {
-      x.push_back(on_saddle(i, j));
-      const bool inside = i > 0 && j > 0 && i < kSide && j < kSide;
-      moved.push_back(inside ? on_saddle(i + 0.5, j + 0.5) : x.back());
-      if (i == kSide || j == kSide) continue;
-      const Index v = j * (kSide + 1) + i;
-      triangles.push_back({v, v + 1, v + kSide + 2});
-      triangles.push_back({v, v + kSide + 2, v + kSide + 1});
-    }
-  }
+  // Moved by half an edge both ways, vertices come over diagonals, which lie on the saddle, and edges along x
+  // over edges along y.
+  const TriangleMesh mesh = saddle(10);
+  const std::vector<Vec3>& x = mesh.positions;
+  const std::vector<Triangle>& triangles = mesh.triangles;
+  const std::vector<Vec3> moved = saddle(10, 0.5, 0.5).positions;
   const double vertices = std::max(farthest(x, moved, triangles, 0), farthest(moved, x, triangles, 0));
   const double largest = std::max(farthest(x, moved, triangles, 60), farthest(moved, x, triangles, 60));
   ASSERT_LT(vertices, 1e-6);

@@ -52,25 +52,6 @@ TEST(SurfaceDistance, FindsPeaksBetweenTheSamples) {
   }
 }
 
-/// A saddle of many triangles, shifted along it: the two are equally far from each other all over, where
-/// edges cross.
-TriangleMesh saddle(unsigned side, double shift_x, double shift_y) {
-  TriangleMesh mesh;
-  for (Index j = 0; j <= side; ++j) {
-    for (Index i = 0; i <= side; ++i) {
-      const bool inside = i > 0 && j > 0 && i < side && j < side;
-      const double x = i + (inside ? shift_x : 0) - 0.5 * side;
-      const double y = j + (inside ? shift_y : 0) - 0.5 * side;
-      mesh.positions.emplace_back(x, y, 0.02 * (x * x - y * y));
-      if (i == side || j == side) continue;
-      const Index v = j * (side + 1) + i;
-      mesh.triangles.push_back({v, v + 1, v + side + 2});
-      mesh.triangles.push_back({v, v + side + 2, v + side + 1});
-    }
-  }
-  return mesh;
-}
-
 TEST(SurfaceDistance, FindsPeaksThatAreEverywhere) {
   const TriangleMesh then = saddle(16, 0, 0);
   const TriangleMesh now = saddle(16, 0.5, 0.35);
