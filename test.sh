@@ -25,6 +25,8 @@ esac
 
 # Tests that hold a stopwatch: a sanitizer makes them say how slow it is.
 untimed='Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:Files.TimeFollows*:MillionTriangles.*'
+# Long runs that are about figures: other tests make the same kinds of steps, on smaller meshes.
+figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*'
 # What computes on several threads, and the session with its worker.
 parallel='*Threads*:SessionTest.*:TimelineTest.*:BoundedRun.*:Untangle.*'
 
@@ -93,7 +95,7 @@ check_tidy() { cmake --fresh --preset debug >/dev/null && python3 .ci/tidy.py bu
 stage 'static analysis (clang-tidy)' check_tidy
 
 if stage 'build with address and undefined-behaviour sanitizers' build asan; then
-  # The same run on one, two and five threads belongs to the thread sanitizer; a whole benchmark to neither.
+  # The same run on one, two and five threads belongs to the thread sanitizer.
   # Some containers forbid what the leak detector does to its own process.
   leaks=1
   if build/asan/bin/isorelax --version 2>&1 | grep -q 'LeakSanitizer has encountered a fatal error'; then
@@ -102,7 +104,7 @@ if stage 'build with address and undefined-behaviour sanitizers' build asan; the
   fi
   ASAN_OPTIONS="detect_leaks=$leaks:strict_string_checks=1:detect_stack_use_after_return=1" \
     LSAN_OPTIONS="suppressions='$root/.ci/leaks.supp':print_suppressions=0" \
-    UBSAN_OPTIONS='print_stacktrace=1' GTEST_FILTER="-$untimed:*Threads*:BenchmarkCommand.PutsThePapersTable*" \
+    UBSAN_OPTIONS='print_stacktrace=1' GTEST_FILTER="-$untimed:$figures:*Threads*" \
     tests 'tests with address and undefined-behaviour sanitizers' asan -LE 'corpus|bench'
 fi
 

@@ -23,7 +23,7 @@ Json number(double value) {
   return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
 }
 
-Json to_json(const Case& one) {
+Json case_to_json(const Case& one) {
   Json object;
   object["name"] = one.name;
   object["a"] = one.a;
@@ -190,7 +190,7 @@ class CompareCommand : public Command {
   void print(Console& console, const std::vector<Case>& cases) const {
     if (json_) {
       Json document = Json::array();
-      for (const Case& one : cases) document.push_back(to_json(one));
+      for (const Case& one : cases) document.push_back(case_to_json(one));
       const bool folders = std::filesystem::is_directory(a_);
       console.result(json_text(folders ? Json{{"comparisons", std::move(document)}} : document[0]));
       return;

@@ -23,10 +23,10 @@ namespace {
 constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
                                 kLimitFold,   kLimitEnergy, kLimitSurface, kLimitConverged};
 
-Json to_json(const SmoothOutcome& outcome) {
+Json outcome_to_json(const SmoothOutcome& outcome) {
   Json object;
-  object["before"] = cli::to_json(outcome.before);
-  object["after"] = cli::to_json(outcome.after);
+  object["before"] = to_json(outcome.before);
+  object["after"] = to_json(outcome.after);
   object["iterations"] = outcome.run.iterations;
   object["stopped"] = name_of(outcome.run.stopped);
   object["stopped_because"] = to_string(outcome.run.stopped);
@@ -136,7 +136,7 @@ class SmoothCommand : public Command {
     if (refreshed > 0)
       console.message(input_ + ": " + std::to_string(refreshed) + " stored normals were made to fit again");
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
-    if (!report_.empty()) write_file_atomically(report_, json_text(to_json(outcome)));
+    if (!report_.empty()) write_file_atomically(report_, json_text(outcome_to_json(outcome)));
     if (const auto fault = fault_of(outcome)) {
       console.error(output_ + " is not written: " + *fault);
       return kCheckFailed;

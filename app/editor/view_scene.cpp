@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "editor/session_view.h"
+#include "mesh/angle.h"
 #include "view/measures.h"
 
 namespace isorelax::editor {
@@ -49,7 +49,6 @@ namespace {
 render::Camera look_along(render::Camera camera, const model::Session& session, const Vec3& normal) {
   if (session.document->plane_normal || normal.norm() == 0) return camera;
   const Vec3 n = normal.normalized();
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const bool y_up = camera.up == render::UpAxis::y;
   camera.azimuth_deg = kDegrees * (y_up ? std::atan2(n.x(), n.z()) : std::atan2(n.x(), -n.y()));
   camera.elevation_deg =

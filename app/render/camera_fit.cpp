@@ -3,16 +3,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "mesh/angle.h"
 #include "render/camera.h"
 
 namespace isorelax::render {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// A mesh is planar when it is thinner than this share of its size.
 constexpr double kPlanarThickness = 1e-6;
 /// z is up when a mesh is flatter in z than this share of its smaller side in x and y.

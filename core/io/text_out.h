@@ -15,7 +15,15 @@ inline void append_number(std::string& out, double value) {
   out.append(digits.data(), result.ptr);
 }
 
-/// Same, with ".0" after a whole number: for formats where "1" and "1.0" mean different things.
+/// Those digits alone.
+inline std::string digits_of(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+/// The same as append_number, with ".0" after a whole number: for formats where "1" and "1.0" mean different
+/// things.
 inline void append_fraction(std::string& out, double value) {
   const std::size_t begin = out.size();
   append_number(out, value);

@@ -17,12 +17,6 @@ bool read_whole(std::string_view word, T& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-std::string digits_of(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
-}
-
 [[noreturn]] void refuse(std::string_view option, const std::string& word, const std::string& expected) {
   throw UsageError("--" + std::string(option) + " " + word + ": expected " + expected);
 }

@@ -1,20 +1,14 @@
 #include "motion/velocity_field.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "io/text_out.h"
 #include "mesh/parallel.h"
 
 namespace isorelax {
 namespace {
-
-std::string digits_of(double value) {
-  std::array<char, 32> digits{};
-  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), written.ptr};
-}
 
 /// sin(pi x) and cos(pi x) of the three coordinates.
 struct HalfTurns {

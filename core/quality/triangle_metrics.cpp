@@ -7,13 +7,12 @@
 #include <numbers>
 #include <utility>
 
+#include "mesh/angle.h"
 #include "mesh/degenerate.h"
 #include "mesh/parallel.h"
 
 namespace isorelax {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 constexpr std::array<std::pair<FaceMetric, std::string_view>, 8> kNames{{
     {FaceMetric::min_angle, "min-angle"},

@@ -2,25 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "mesh/angle.h"
 
 namespace isorelax {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
 /// degrees.
 constexpr double kLeastRingCosine = 0.5;
 
-double angle_between(const Vec3& u, const Vec3& v) {
-  return kDegrees * std::atan2(u.cross(v).norm(), u.dot(v));
-}
-
 }  // namespace
 
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double at_a = angle_between(b - a, c - a);
-  const double at_b = angle_between(c - b, a - b);
+  const double at_a = angle_between_deg(b - a, c - a);
+  const double at_b = angle_between_deg(c - b, a - b);
   const double at_c = 180 - at_a - at_b;
   return {std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c})};
 }

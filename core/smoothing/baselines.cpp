@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/angle.h"
 #include "mesh/parallel.h"
 #include "smoothing/guarded_smoother.h"
 #include "smoothing/tangent.h"
@@ -88,11 +89,6 @@ class Laplacian : public Baseline {
   LaplacianWeighting weighting_;
   double relaxation_;
 };
-
-/// Angle between two edges.
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 class AngleBased : public Baseline {
  public:

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "energy/triangle_energy.h"
+#include "mesh/angle.h"
 #include "mesh/parallel.h"
 
 namespace isorelax {
@@ -123,7 +123,7 @@ TriangleMoment state_of(const SmoothingProblem& problem, const std::array<Vec3, 
   for (unsigned k = 0; k < 3; ++k) {
     const Vec3 a = x[next(k)] - x[k];
     const Vec3 b = x[previous(k)] - x[k];
-    state.angles_deg[k] = 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b));
+    state.angles_deg[k] = angle_between_deg(a, b);
   }
   // K = kappa + 1 / kappa with kappa the ratio of the two, and their product is D2 / D1.
   const double kappa = 0.5 * (state.shape + std::sqrt(std::max(0.0, state.shape * state.shape - 4)));

@@ -11,7 +11,7 @@ namespace {
 
 /// How far from its triangles the smooth surface may be, and a smooth feature from its edges, of the distance
 /// that the mesh may: what is left is for the triangles between vertices on it.
-constexpr double kLargestShare = 0.5;
+constexpr double kLargestShareOnSurface = 0.5;
 constexpr double kLargestShareOnCurves = 0.9;
 /// A move that leads outwards by less than this share of its length slides already.
 constexpr double kLeastSlide = 1e-3;
@@ -25,7 +25,7 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   const auto [there, at] = problem.surface->project(target, class_on_surface(problem, vertex), anchor);
   if (!problem.near) return there;
   const NearSurface& near = *problem.near;
-  const double share = at.edge == kNone ? kLargestShare : kLargestShareOnCurves;
+  const double share = at.edge == kNone ? kLargestShareOnSurface : kLargestShareOnCurves;
   const double most = share * near.distance;
   const auto lift = closest_point_of_triangle(there, near.positions, problem.triangles, at.triangle).distance;
   if (lift <= most) return there;

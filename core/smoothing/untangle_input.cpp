@@ -10,7 +10,7 @@ namespace {
 
 /// On a surface, one in so many triangles has to be upside down. A few in a scan are its sharp folds: turning
 /// them moves corners and leaves the surface, which costs more than it brings.
-constexpr std::size_t kLeastShare = 200;
+constexpr std::size_t kOnePerTriangles = 200;
 
 /// What may move however upside down its triangles are: inside of a sound two-sided surface.
 std::vector<std::uint8_t> inner_vertices(const Topology& topology) {
@@ -47,7 +47,7 @@ UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangl
   }
   if (!plane_normal(positions, triangles, topology, options.threads)) {
     const std::size_t inverted = inverted_triangles(positions, triangles, topology, options.threads).size();
-    if (kLeastShare * inverted < triangles.size()) return {inverted, inverted, {}};
+    if (kOnePerTriangles * inverted < triangles.size()) return {inverted, inverted, {}};
     hold_features(movable, positions, triangles, topology, options);
   }
   return untangle(positions, triangles, topology, movable, options.threads);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "mesh/angle.h"
 #include "mesh/degenerate.h"
 #include "mesh/parallel.h"
 #include "surface/surface_distance.h"
@@ -30,12 +30,12 @@ double largest_normal_change(std::span<const Vec3> before, std::span<const Vec3>
       const Vec3 m = area_vector(before[a], before[b], before[c]);
       const Vec3 n = area_vector(after[a], after[b], after[c]);
       double& most = largest[begin / kBlockSize];
-      most = std::max(most, std::atan2(m.cross(n).norm(), m.dot(n)));
+      most = std::max(most, angle_between(m, n));
     }
   });
   double all = 0;
   for (const double part : largest) all = std::max(all, part);
-  return all * 180 / std::numbers::pi;
+  return all * kDegrees;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/angle.h"
+
 namespace isorelax {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kStraight = 5e-5;
 /// make more of it than this.
 constexpr double kLargestCurveLift = 0.4;
 constexpr int kCurveCorrections = 2;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 }  // namespace
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "mesh/angle.h"
 
 namespace isorelax {
 
@@ -16,7 +17,7 @@ double dihedral_turn_deg(std::span<const Vec3> positions, std::span<const Triang
   Vec3 b = area_vector(positions[u[0]], positions[u[1]], positions[u[2]]);
   if (a.isZero(0) || b.isZero(0)) return 0;
   if (t[next(corner % 3)] == u[next(other % 3)]) b = -b;  // the two run along the edge the same way
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  return angle_between_deg(a, b);
 }
 
 bool is_crease(const FeatureOptions& options, double turn_deg, std::array<double, 2> spread_deg) {

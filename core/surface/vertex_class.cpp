@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "mesh/angle.h"
 #include "mesh/parallel.h"
 #include "surface/crease_graph.h"
 
 namespace isorelax {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// A border that turns by no more than this in a vertex runs straight through it, by more than that it does
 /// not.
 constexpr double kStraightDeg = 0.003;
@@ -21,10 +20,6 @@ constexpr double kKinkDeg = 0.05;
 /// tan^2(phi / 2).
 double spread(double part, double whole) {
   return whole > 0 ? 2 * std::atan(std::sqrt(std::max(0.0, part) / whole)) * kDegrees : 0;
-}
-
-double angle_between_deg(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
 }
 
 class Classifier {

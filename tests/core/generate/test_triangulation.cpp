@@ -11,9 +11,9 @@
 namespace isorelax {
 namespace {
 
-using Points = std::vector<GridPoint>;
+using GridPoints = std::vector<GridPoint>;
 
-double area_of(const Points& points, const std::vector<Triangle>& triangles) {
+double area_of(const GridPoints& points, const std::vector<Triangle>& triangles) {
   double area = 0;
   for (const auto& [a, b, c] : triangles) {
     const auto cross = (points[b].x - points[a].x) * (points[c].y - points[a].y) -
@@ -24,7 +24,7 @@ double area_of(const Points& points, const std::vector<Triangle>& triangles) {
 }
 
 /// Every triangle counter-clockwise with no point inside its circle; every point used.
-void expect_delaunay(const Points& points, const std::vector<Triangle>& triangles) {
+void expect_delaunay(const GridPoints& points, const std::vector<Triangle>& triangles) {
   std::vector<bool> used(points.size(), false);
   for (const auto& [a, b, c] : triangles) {
     EXPECT_EQ(orient_plane(points[a], points[b], points[c]), 1);
@@ -34,9 +34,9 @@ void expect_delaunay(const Points& points, const std::vector<Triangle>& triangle
   EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
 }
 
-Points random_points(std::size_t count, std::int64_t size) {
+GridPoints random_points(std::size_t count, std::int64_t size) {
   Random random(5);
-  Points points;
+  GridPoints points;
   while (points.size() < count) {
     const GridPoint p{static_cast<std::int64_t>(random.below(size)),
                       static_cast<std::int64_t>(random.below(size)), 0};
@@ -48,17 +48,17 @@ Points random_points(std::size_t count, std::int64_t size) {
 }
 
 TEST(Delaunay, RandomPointsHaveEmptyCircles) {
-  const Points points = random_points(300, 1 << 29);
+  const GridPoints points = random_points(300, 1 << 29);
   expect_delaunay(points, delaunay_triangles(points));
 }
 
 TEST(Delaunay, PointsOnACoarseGridWithManyLinesAndCirclesInCommonWork) {
-  const Points points = random_points(150, 16);
+  const GridPoints points = random_points(150, 16);
   expect_delaunay(points, delaunay_triangles(points));
 }
 
 TEST(Delaunay, FullLatticeIsCoveredOnce) {
-  Points points;
+  GridPoints points;
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 20; ++x) points.push_back({x, y, 0});
   }
@@ -69,7 +69,7 @@ TEST(Delaunay, FullLatticeIsCoveredOnce) {
 }
 
 TEST(Delaunay, RingsOfPointsWork) {
-  Points points;
+  GridPoints points;
   for (int ring = 1; ring <= 4; ++ring) {
     for (int i = 0; i < 24; ++i) {
       const double angle = i * std::atan(1.0) / 3;
@@ -81,14 +81,15 @@ TEST(Delaunay, RingsOfPointsWork) {
 }
 
 TEST(Delaunay, RefusesALineAndCoincidingPoints) {
-  EXPECT_THROW(static_cast<void>(delaunay_triangles(Points{{0, 0, 0}, {1, 1, 0}, {5, 5, 0}})), UsageError);
-  EXPECT_THROW(static_cast<void>(delaunay_triangles(Points{{0, 0, 0}, {1, 1, 0}, {5, 0, 0}, {1, 1, 0}})),
+  EXPECT_THROW(static_cast<void>(delaunay_triangles(GridPoints{{0, 0, 0}, {1, 1, 0}, {5, 5, 0}})),
                UsageError);
-  EXPECT_THROW(static_cast<void>(delaunay_triangles(Points{})), UsageError);
+  EXPECT_THROW(static_cast<void>(delaunay_triangles(GridPoints{{0, 0, 0}, {1, 1, 0}, {5, 0, 0}, {1, 1, 0}})),
+               UsageError);
+  EXPECT_THROW(static_cast<void>(delaunay_triangles(GridPoints{})), UsageError);
 }
 
 TEST(Hull, OfACubeAndItsFaceCentresPushedOutHasEveryPointOnIt) {
-  Points points;
+  GridPoints points;
   for (int i = 0; i < 8; ++i) points.push_back({i % 2 * 20 - 10, i / 2 % 2 * 20 - 10, i / 4 * 20 - 10});
   for (const int d : {-11, 11}) {
     points.push_back({d, 0, 0});
@@ -103,9 +104,9 @@ TEST(Hull, OfACubeAndItsFaceCentresPushedOutHasEveryPointOnIt) {
 }
 
 TEST(Hull, RefusesAnInnerPointAndAPlane) {
-  const Points inner = {{-9, -9, -9}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {0, 0, 0}};
+  const GridPoints inner = {{-9, -9, -9}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {0, 0, 0}};
   EXPECT_THROW(static_cast<void>(hull_triangles(inner)), UsageError);
-  const Points flat = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 9, 0}};
+  const GridPoints flat = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 9, 0}};
   EXPECT_THROW(static_cast<void>(hull_triangles(flat)), UsageError);
 }
 

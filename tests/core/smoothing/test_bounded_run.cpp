@@ -20,7 +20,7 @@ TriangleMesh shaken_torus() {
   return generate(ShapeKind::torus, {.seed = 3, .triangles = 600, .jitter = 0.5});
 }
 
-double deviation(const TriangleMesh& a, const TriangleMesh& b) {
+double distance_between(const TriangleMesh& a, const TriangleMesh& b) {
   return measure_deviation(a.positions, b.positions, a.triangles, Topology(a.triangles, a.vertex_count()))
       .max;
 }
@@ -33,7 +33,7 @@ TEST(BoundedRun, NeverExceedsTheLimit) {
     TriangleMesh mesh = shaken_torus();
     const BoundedResult result = smooth(mesh, share * unlimited);
     EXPECT_LE(result.deviation.max, share * unlimited);
-    EXPECT_EQ(result.deviation.max, deviation(shaken_torus(), mesh));
+    EXPECT_EQ(result.deviation.max, distance_between(shaken_torus(), mesh));
     EXPECT_GT(result.limits[6], 0U) << "surface limits are counted";
   }
 }
@@ -81,7 +81,7 @@ TEST(BoundedRun, EveryStepOfAStatedLimitKeepsIt) {
           limited += count_limits(record.limits)[6];
           TriangleMesh now = start;
           now.positions.assign(positions.begin(), positions.end());
-          largest = std::max(largest, deviation(start, now));
+          largest = std::max(largest, distance_between(start, now));
           return true;
         },
         PolishOptions{.iterations = 3},
@@ -108,8 +108,8 @@ TEST(BoundedRun, AFreeOutlineKeepsAStatedLimitToo) {
       mesh.positions, mesh.triangles, {.boundary = BoundaryRule::free},
       [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, {0.01},
       {}, {}, [&](const RunPart& part, std::span<const Vec3>) { attempts += part.done == 0 ? 1 : 0; });
-  EXPECT_LE(deviation(start, mesh), 0.01);
-  EXPECT_GT(deviation(start, mesh), 0.005);
+  EXPECT_LE(distance_between(start, mesh), 0.01);
+  EXPECT_GT(distance_between(start, mesh), 0.005);
   EXPECT_EQ(attempts, 1U);
   EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, measure_quality(start).mean_min_angle_deg + 10);
 }

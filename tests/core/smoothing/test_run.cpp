@@ -13,22 +13,22 @@
 namespace isorelax {
 namespace {
 
-RunResult smooth(TriangleMesh& mesh, const ProblemOptions& problem_options, const RunOptions& options,
-                 const StepObserver& observer = {}) {
+RunResult run_smoother(TriangleMesh& mesh, const ProblemOptions& problem_options, const RunOptions& options,
+                       const StepObserver& observer = {}) {
   const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, problem_options);
   return run(*make_jacobi(problem), problem, mesh.positions, options, observer);
 }
 
 TEST(Run, StopsAtTheIterationLimit) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 300});
-  const RunResult result = smooth(mesh, {}, {.iterations = 3});
+  const RunResult result = run_smoother(mesh, {}, {.iterations = 3});
   EXPECT_EQ(result.iterations, 3U);
   EXPECT_EQ(result.stopped, StopReason::iterations);
 }
 
 TEST(Run, WithToleranceZeroDoesExactlyThatManySteps) {
   TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.triangles = 100});
-  EXPECT_EQ(smooth(mesh, {}, {.iterations = 2000, .tolerance = 0}).iterations, 2000U);
+  EXPECT_EQ(run_smoother(mesh, {}, {.iterations = 2000, .tolerance = 0}).iterations, 2000U);
 }
 
 TEST(Run, NeverMakesATriangleWorseThanTheWorstOne) {
@@ -39,7 +39,7 @@ TEST(Run, NeverMakesATriangleWorseThanTheWorstOne) {
     const QualityReport before = measure_quality(*mesh);
     ProblemOptions options;
     options.exponent = 2;
-    smooth(*mesh, options, {.iterations = 100});
+    run_smoother(*mesh, options, {.iterations = 100});
     const QualityReport after = measure_quality(*mesh);
     EXPECT_GE(after.min_angle_deg, before.min_angle_deg - 1e-9);
     EXPECT_LE(after.max_angle_deg, std::max(before.max_angle_deg, 120.0) + 1e-9);
@@ -49,7 +49,7 @@ TEST(Run, NeverMakesATriangleWorseThanTheWorstOne) {
 
 TEST(Run, StopsWhenConverged) {
   TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.triangles = 200, .jitter = 0.2});
-  const RunResult result = smooth(mesh, {}, {.iterations = 5000, .tolerance = 1e-5});
+  const RunResult result = run_smoother(mesh, {}, {.iterations = 5000, .tolerance = 1e-5});
   EXPECT_LT(result.iterations, 5000U);
   EXPECT_NE(result.stopped, StopReason::iterations);
 }
@@ -81,16 +81,16 @@ TEST(Run, SaysThatNothingMayMove) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
-  const RunResult result = smooth(mesh, {}, {});
+  const RunResult result = run_smoother(mesh, {}, {});
   EXPECT_EQ(result.stopped, StopReason::fixed);
   EXPECT_EQ(result.iterations, 0U);
 }
 
 TEST(Run, ObserverCanCancel) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 300});
-  const RunResult result =
-      smooth(mesh, {}, {},
-             [](unsigned iteration, const StepRecord&, std::span<const Vec3>) { return iteration < 5; });
+  const RunResult result = run_smoother(
+      mesh, {}, {},
+      [](unsigned iteration, const StepRecord&, std::span<const Vec3>) { return iteration < 5; });
   EXPECT_EQ(result.iterations, 5U);
   EXPECT_EQ(result.stopped, StopReason::cancelled);
 }
@@ -100,7 +100,7 @@ TEST(Run, MakesEveryKindOfMeshBetter) {
        {ShapeKind::random_square, ShapeKind::hexagonal_square, ShapeKind::random_sphere, ShapeKind::part}) {
     TriangleMesh mesh = generate(kind, {.seed = 11, .triangles = 1500});
     const QualityReport before = measure_quality(mesh);
-    smooth(mesh, {}, {});
+    run_smoother(mesh, {}, {});
     const QualityReport after = measure_quality(mesh);
     EXPECT_GT(after.mean_min_angle_deg, before.mean_min_angle_deg + 5);
     EXPECT_GE(after.min_angle_deg, before.min_angle_deg);
@@ -111,7 +111,7 @@ TEST(Run, MakesEveryKindOfMeshBetter) {
 TEST(Run, KeepsTheBoundaryToTheBit) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 500});
   const std::vector<Vec3> before = mesh.positions;
-  smooth(mesh, {}, {});
+  run_smoother(mesh, {}, {});
   const Topology topology(mesh.triangles, mesh.vertex_count());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (topology.is_boundary(v)) {
@@ -123,7 +123,7 @@ TEST(Run, KeepsTheBoundaryToTheBit) {
 TEST(Run, SlidingKeepsTheSquare) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 500});
   const std::vector<Vec3> before = mesh.positions;
-  smooth(mesh, {.boundary = BoundaryRule::slide}, {});
+  run_smoother(mesh, {.boundary = BoundaryRule::slide}, {});
   std::size_t slid = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     for (int k = 0; k < 2; ++k) {
@@ -142,7 +142,7 @@ TEST(Run, KeepsTheCubeACube) {
   Vec3 low = mesh.positions[0];
   Vec3 high = low;
   for (const Vec3& p : mesh.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  smooth(mesh, {}, {});
+  run_smoother(mesh, {}, {});
   for (const Vec3& p : mesh.positions) {
     const double off = std::min((p - low).cwiseAbs().minCoeff(), (p - high).cwiseAbs().minCoeff());
     EXPECT_LT(off, 1e-9);
@@ -159,12 +159,12 @@ double difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 TEST(Run, DoesNotDependOnWhereAndHowLargeTheMeshIs) {
   const TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 2, .vertices = 400});
   TriangleMesh plain = mesh;
-  smooth(plain, {.weights = {1, 0.5}}, {.iterations = 10});
+  run_smoother(plain, {.weights = {1, 0.5}}, {.iterations = 10});
   const Eigen::Quaterniond turn = Eigen::Quaterniond(0.3, -0.5, 0.2, 0.7).normalized();
   const Vec3 shift(0.5, -2, 1);
   TriangleMesh moved = mesh;
   for (Vec3& p : moved.positions) p = 8 * (turn * p) + shift;
-  smooth(moved, {.weights = {1, 0.5}}, {.iterations = 10});
+  run_smoother(moved, {.weights = {1, 0.5}}, {.iterations = 10});
   for (Vec3& p : moved.positions) p = turn.conjugate() * ((p - shift) / 8);
   EXPECT_LT(difference(plain.positions, moved.positions), 1e-9);
 }
@@ -172,7 +172,7 @@ TEST(Run, DoesNotDependOnWhereAndHowLargeTheMeshIs) {
 TEST(Run, DoesNotDependOnTheNumberingOfTheMesh) {
   const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 2, .triangles = 400});
   TriangleMesh plain = mesh;
-  smooth(plain, {}, {.iterations = 10});
+  run_smoother(plain, {}, {.iterations = 10});
   std::mt19937_64 engine(4);
   std::vector<Index> order(mesh.positions.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -181,7 +181,7 @@ TEST(Run, DoesNotDependOnTheNumberingOfTheMesh) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) renumbered.positions[order[v]] = mesh.positions[v];
   for (Triangle& t : renumbered.triangles) t = {order[t[1]], order[t[2]], order[t[0]]};
   std::shuffle(renumbered.triangles.begin(), renumbered.triangles.end(), engine);
-  smooth(renumbered, {}, {.iterations = 10});
+  run_smoother(renumbered, {}, {.iterations = 10});
   std::vector<Vec3> back(mesh.positions.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) back[v] = renumbered.positions[order[v]];
   EXPECT_LT(difference(plain.positions, back), 1e-9);
@@ -190,7 +190,7 @@ TEST(Run, DoesNotDependOnTheNumberingOfTheMesh) {
 TEST(Run, AgainstTheMeshItselfMovesNothing) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 400});
   const std::vector<Vec3> before = mesh.positions;
-  const RunResult result = smooth(mesh, {.weights = {0.5, 0.5}, .reference = InitialReference{}}, {});
+  const RunResult result = run_smoother(mesh, {.weights = {0.5, 0.5}, .reference = InitialReference{}}, {});
   EXPECT_LT(difference(mesh.positions, before), 1e-9);
   EXPECT_LE(result.iterations, 2U);
 }

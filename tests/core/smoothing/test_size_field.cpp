@@ -27,7 +27,7 @@ double left_over_right(const TriangleMesh& mesh) {
   return sum[0] / count[0] / (sum[1] / count[1]);
 }
 
-std::vector<std::string> smooth(TriangleMesh& mesh, const ProblemOptions& options) {
+std::vector<std::string> smooth_to_sizes(TriangleMesh& mesh, const ProblemOptions& options) {
   return run_bounded(
              mesh.positions, mesh.triangles, options,
              [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
@@ -47,7 +47,7 @@ TEST(SizeField, MakesTrianglesSmallWhereItIsSmall) {
                                .reference = SizeFieldReference{growing_to_the_right(mesh)},
                                .boundary = BoundaryRule::slide};
   EXPECT_NEAR(left_over_right(mesh), 1, 0.1);
-  smooth(mesh, options);
+  smooth_to_sizes(mesh, options);
   EXPECT_LT(left_over_right(mesh), 0.7);
 }
 
@@ -56,10 +56,10 @@ TEST(SizeField, OnlyItsRatiosCount) {
   TriangleMesh other = one;
   std::vector<double> lengths = growing_to_the_right(one);
   ProblemOptions options{.weights = EnergyWeights::from_mu(0.5), .reference = SizeFieldReference{lengths}};
-  smooth(one, options);
+  smooth_to_sizes(one, options);
   for (double& length : lengths) length *= 1024;
   options.reference = SizeFieldReference{lengths};
-  smooth(other, options);
+  smooth_to_sizes(other, options);
   EXPECT_EQ(one.positions, other.positions);
 }
 
@@ -79,15 +79,15 @@ TEST(SizeField, ReferencesCoverTheMesh) {
 TEST(SizeField, SaysWhenItHasNoEffectAndRefusesWhatIsNone) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 100});
   ProblemOptions options{.reference = SizeFieldReference{growing_to_the_right(mesh)}};
-  const auto notes = smooth(mesh, options);
+  const auto notes = smooth_to_sizes(mesh, options);
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("no effect") != std::string::npos;
   }));
   options.reference = SizeFieldReference{{1, 2, 3}};
-  EXPECT_THROW(smooth(mesh, options), MeshError);
+  EXPECT_THROW(smooth_to_sizes(mesh, options), MeshError);
   std::vector<double> zero(mesh.positions.size(), 0);
   options.reference = SizeFieldReference{zero};
-  EXPECT_THROW(smooth(mesh, options), UsageError);
+  EXPECT_THROW(smooth_to_sizes(mesh, options), UsageError);
 }
 
 TEST(SizeField, OfCurvatureIsSmallerWhereASurfaceBendsMore) {
