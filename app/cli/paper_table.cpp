@@ -80,7 +80,7 @@ Run polished(const ProblemOptions& options, const SmootherFactory& make, const R
     RunResult result = run_with_continuation(problem, make, mesh.positions, run_options, {});
     const PolishOptions polish;
     const RunResult last = isorelax::run(*make_polish(problem, polish), problem, mesh.positions,
-                                         {.iterations = polish.iterations, .tolerance = 1e-12});
+                                         {.iterations = polish.iterations, .tolerance = kPolishTolerance});
     result.iterations += last.iterations;
     return result;
   };

@@ -153,7 +153,7 @@ class SmoothCommand : public Command {
     console.message("stopped after " + std::to_string(outcome.run.iterations) +
                     " iterations: " + std::string(to_string(outcome.run.stopped)));
     if (outcome.polish)
-      console.message("worst angles polished in " + std::to_string(outcome.polish->iterations) + " more");
+      console.message("polished in " + std::to_string(outcome.polish->iterations) + " more");
     return kDone;
   }
 

@@ -14,6 +14,9 @@
 namespace isorelax::cli {
 namespace {
 
+constexpr std::array<std::pair<std::string_view, PolishGoal>, 3> kPolishGoals{
+    {{"worst", PolishGoal::worst}, {"mean", PolishGoal::mean}, {"both", PolishGoal::both}}};
+
 bool is_file(const std::string& text) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(text, ignored);
@@ -32,11 +35,13 @@ void SmoothRun::declare(CLI::App& app) {
       ->check(number_between(0, std::numeric_limits<double>::max()));
   app.add_option(
          "--polish", polish_,
-         "worst: a last stage that raises the smallest angles themselves, the worst first; none (default)")
+         "A last stage. worst: raises the smallest angles themselves, the worst first; mean: raises the mean "
+         "of the triangles' smallest angles, and the worst stay as good as they are; both: worst, then mean; "
+         "none (default)")
       ->type_name("WHAT");
   app.add_option(
          "--polish-mean-loss", polish_options_.largest_mean_loss,
-         "The mean of the triangles' smallest angles falls by no more in that stage, degrees (default 1)")
+         "For the worst angles, the mean of the triangles' smallest falls by no more, degrees (default 1)")
       ->type_name("DEG")
       ->check(number_between(0, 60));
   app.add_option(
@@ -52,13 +57,18 @@ void SmoothRun::declare(CLI::App& app) {
 
 void SmoothRun::check() const {
   const Method method = parse_method(*app_, method_);
-  if (parse_polish() && !method.guarded) throw UsageError("--polish worst: not without a guard");
+  if (parse_polish() && !method.guarded) throw UsageError("--polish " + polish_ + ": not without a guard");
 }
 
 std::optional<PolishOptions> SmoothRun::parse_polish() const {
   if (polish_ == "none") return std::nullopt;
-  if (polish_ == "worst") return polish_options_;
-  throw UsageError("--polish " + polish_ + ": expected worst or none");
+  PolishOptions options = polish_options_;
+  for (const auto& [word, goal] : kPolishGoals) {
+    if (polish_ != word) continue;
+    options.goal = goal;
+    return options;
+  }
+  throw UsageError("--polish " + polish_ + ": expected worst, mean, both or none");
 }
 
 std::vector<std::string> SmoothRun::words() const {
@@ -112,7 +122,8 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
 
 RunPlan SmoothRun::plan(Console& console, const TriangleMesh& mesh) const {
   return {parse_problem(console, problem_, mesh),
-          parse_method(*app_, method_, RecordDetail::stages).make_smoother, polish_options_};
+          parse_method(*app_, method_, RecordDetail::stages).make_smoother,
+          parse_polish().value_or(polish_options_)};
 }
 
 void read_words(SmoothRun& run, CLI::App& app, std::vector<std::string> words) {

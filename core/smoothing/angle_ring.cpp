@@ -90,7 +90,7 @@ void AngleRing::collect(const Vec3& at, std::vector<Vec3>* gradients) {
   }
 }
 
-double AngleRing::soft_value(const Vec3& at, double sharpness) {
+double AngleRing::soft_minimum_value(const Vec3& at, double sharpness) {
   collect(at, nullptr);
   const double least = *std::min_element(scores_.begin(), scores_.end());
   double sum = 0;
@@ -98,7 +98,7 @@ double AngleRing::soft_value(const Vec3& at, double sharpness) {
   return least - std::log(sum) / sharpness;
 }
 
-AngleRing::Soft AngleRing::soft(const Vec3& at, double sharpness) {
+AngleRing::Soft AngleRing::soft_minimum(const Vec3& at, double sharpness) {
   collect(at, &gradients_);
   const double least = *std::min_element(scores_.begin(), scores_.end());
   double sum = 0;
@@ -112,6 +112,40 @@ AngleRing::Soft AngleRing::soft(const Vec3& at, double sharpness) {
   }
   mean /= sum;
   return {least - std::log(sum) / sharpness, mean, sharpness * (squares / sum - mean * mean.transpose())};
+}
+
+double AngleRing::sum_of_soft_minima_value(const Vec3& at, double sharpness) const {
+  double value = 0;
+  for (const Side& side : sides_) {
+    const auto a = angles(side, at, nullptr);
+    const double least = std::min({a[0], a[1], a[2]});
+    double sum = 0;
+    for (const double angle : a) sum += std::exp(-sharpness * (angle - least));
+    value += least - std::log(sum) / sharpness;
+  }
+  return value;
+}
+
+AngleRing::Soft AngleRing::sum_of_soft_minima(const Vec3& at, double sharpness) const {
+  Soft all{sum_of_soft_minima_value(at, sharpness), Vec3::Zero(), Mat3::Zero()};
+  std::array<Vec3, 3> g;
+  for (const Side& side : sides_) {
+    const auto a = angles(side, at, &g);
+    const double least = std::min({a[0], a[1], a[2]});
+    double sum = 0;
+    Vec3 mean = Vec3::Zero();
+    Mat3 squares = Mat3::Zero();
+    for (unsigned k = 0; k < 3; ++k) {
+      const double weight = std::exp(-sharpness * (a[k] - least));
+      sum += weight;
+      mean += weight * g[k];
+      squares += weight * g[k] * g[k].transpose();
+    }
+    mean /= sum;
+    all.gradient += mean;
+    all.spread += sharpness * (squares / sum - mean * mean.transpose());
+  }
+  return all;
 }
 
 double AngleRing::shortest_edge(const Vec3& at) const {

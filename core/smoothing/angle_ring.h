@@ -25,8 +25,8 @@ struct AngleGoal {
 /// The triangles around one vertex as functions of where it is, its neighbours held.
 class AngleRing {
  public:
-  /// A soft minimum -1/b log sum exp(-b s) of scores s in degrees, and what a step towards a higher one
-  /// needs.
+  /// A soft minimum -1/b log sum exp(-b s) of scores s in degrees (or a sum of such), and what a step towards
+  /// a higher one needs.
   struct Soft {
     double value;
     Vec3 gradient;  ///< degrees per length
@@ -47,8 +47,12 @@ class AngleRing {
 
   /// Whether no triangle turns over when the vertex goes to `at`.
   [[nodiscard]] bool is_upright(const Vec3& at) const;
-  [[nodiscard]] double soft_value(const Vec3& at, double sharpness);
-  [[nodiscard]] Soft soft(const Vec3& at, double sharpness);
+  /// The soft minimum of all scores of the ring.
+  [[nodiscard]] double soft_minimum_value(const Vec3& at, double sharpness);
+  [[nodiscard]] Soft soft_minimum(const Vec3& at, double sharpness);
+  /// The sum of the triangles' soft minima, each of its own angles alone.
+  [[nodiscard]] double sum_of_soft_minima_value(const Vec3& at, double sharpness) const;
+  [[nodiscard]] Soft sum_of_soft_minima(const Vec3& at, double sharpness) const;
   /// Length of the shortest edge at the vertex.
   [[nodiscard]] double shortest_edge(const Vec3& at) const;
 

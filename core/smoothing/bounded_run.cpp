@@ -98,9 +98,8 @@ double mean_of_smallest_angles(std::span<const Vec3> positions, std::span<const 
 /// The last stage, whose steps are counted on from `done`.
 RunResult run_polish(const SmoothingProblem& problem, std::span<Vec3> positions, const PolishOptions& options,
                      unsigned done, const StepObserver& observer) {
-  // Ends by moving nothing: any tolerance that is not 0 will do.
   return run(*make_polish(problem, options), problem, positions,
-             {.iterations = options.iterations, .tolerance = 1e-12},
+             {.iterations = options.iterations, .tolerance = kPolishTolerance},
              [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
                return !observer || observer(done + iteration, record, moved);
              });
@@ -156,7 +155,8 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const SurfaceWatch watch(surface, original, unheld);
   auto [limit, widest] = limits_of(original, unheld, options, attempts.limit);
   SurfaceHolds holds = options.holds;
-  double share = 1;  // of the largest distance
+  double share = 1;                 // of the largest distance
+  std::vector<Index> polish_still;  // what the last stage has to hold, too
   const auto hold_within = [&](double deviation) {
     holds.distance = share * watch.largest_distance(deviation);
     SmoothingProblem problem = unheld;
@@ -164,11 +164,12 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     return problem;
   };
   // The first attempt mostly is the last. Some find that the limit should be wider. After one that went too
-  // far all the same, quick tries find what has to be held.
+  // far all the same, quick tries find what has to be held. Where only the last stage did, the next attempt
+  // holds more in that alone.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
   for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
-    SmoothingProblem problem = hold_within(limit);
+    const SmoothingProblem problem = hold_within(limit);
     BoundedResult result =
         attempt(problem, holds, positions, attempts, trying ? quick : attempts.run_options);
     const bool cancelled = result.run.stopped == StopReason::cancelled;
@@ -178,23 +179,30 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
       limit = widest;
       continue;
     }
-    double held_to = limit;
     if (!attempts.limit.max && at_limit > 0) {
       result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
                              " at --max-deviation, here " + short_text(limit) +
                              ": they would have led farther from the input");
     }
-    if (attempts.polish && !trying && !cancelled) {
-      if (limit < widest) problem = hold_within(widest);
-      held_to = widest;
-      announce(attempts, {result.run.iterations, problem.exponent, true, holds}, positions);
-      result.polish =
-          run_polish(problem, positions, *attempts.polish, result.run.iterations, attempts.observer);
+    SurfaceWatch::Finding found = watch.look(positions, limit);
+    result.deviation_limit = limit;
+    const bool sound = found.sound();
+    if (attempts.polish && sound && !trying && !cancelled && result.run.stopped != StopReason::fixed) {
+      SurfaceHolds last_holds = holds;
+      last_holds.distance = watch.largest_distance(widest);
+      last_holds.still.insert(last_holds.still.end(), polish_still.begin(), polish_still.end());
+      SmoothingProblem last = unheld;
+      hold(last, last_holds, original);
+      announce(attempts, {result.run.iterations, last.exponent, true, last_holds}, positions);
+      result.polish = run_polish(last, positions, *attempts.polish, result.run.iterations, attempts.observer);
+      found = watch.look(positions, widest);
+      result.deviation_limit = widest;
+      if (!found.sound()) {
+        watch.hold_still(polish_still, found);
+        continue;
+      }
     }
-    const SurfaceWatch::Finding found = watch.look(positions, held_to);
-    result.deviation_limit = held_to;
     result.deviation = found.deviation;
-    const bool sound = found.far.empty() && found.turned.empty();
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
     if (!sound) watch.hold_more(holds, share, found);
     trying = !sound;

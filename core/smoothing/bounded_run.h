@@ -14,13 +14,19 @@ struct DeviationLimit {
   std::optional<double> max;
 };
 
+/// What the last stage raises: the worst angles, the mean of the triangles' smallest angles, or the mean
+/// after the worst.
+enum class PolishGoal : std::uint8_t { worst, mean, both };
+
 /// Options of the last stage, `make_polish`.
 struct PolishOptions {
-  /// The mean of the triangles' smallest angles falls by no more than this, in degrees.
+  PolishGoal goal = PolishGoal::worst;
+  /// For the sake of the worst, the mean of the triangles' smallest angles falls by no more than this, in
+  /// degrees.
   double largest_mean_loss = 1;
   /// What a degree that the largest angle falls counts, beside a degree that the smallest rises.
   double obtuse_weight = 2;
-  unsigned iterations = 300;
+  unsigned iterations = 400;
 };
 
 /// What the steps of a run are made with from some iteration on: enough to make them again.

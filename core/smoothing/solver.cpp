@@ -22,7 +22,11 @@ class AutomaticSmoother : public Smoother {
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     // Elsewhere than the last step led, everything starts anew.
     if (!std::ranges::equal(positions, led_to_)) converging_ = false;
-    (converging_ ? lbfgs_ : newton_)->step(positions, record);
+    if (converging_) lbfgs_->step(positions, record);
+    // A direction for all may lead nowhere where many vertices are held back; one for each alone may still
+    // do.
+    if (converging_ && record.moved == 0 && record.energy_passes > 0) converging_ = false;
+    if (!converging_) newton_->step(positions, record);
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
     if (converging_) return;

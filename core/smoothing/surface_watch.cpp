@@ -100,8 +100,11 @@ void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& 
     share *= kNearer;
     return;
   }
-  if (add(holds.still, found.far)) return;
-  grow(holds.still, problem_.triangles, start_.size());
+  hold_still(holds.still, found);
+}
+
+void SurfaceWatch::hold_still(std::vector<Index>& still, const Finding& found) const {
+  if (!add(still, found.turned) && !add(still, found.far)) grow(still, problem_.triangles, start_.size());
 }
 
 /// Whether the positions surely cover the same part of one plane, so that there is nothing

@@ -17,6 +17,8 @@ class SurfaceWatch {
     std::vector<Index> far;     ///< vertices of triangles over the limit, or near it where one is over
     std::vector<Index> turned;  ///< of triangles that lie upside down and did not at the start
     std::size_t turned_triangles = 0;
+
+    [[nodiscard]] bool sound() const { return far.empty() && turned.empty(); }
   };
 
   /// Deviations are measured from `surface`, runs begin at `start`. Keeps references to all three.
@@ -32,6 +34,8 @@ class SurfaceWatch {
   /// edges that they look at, they have to keep it nearer, within a smaller share of the largest distance; at
   /// last vertices do not move at all, as where triangles turned over, and then their neighbours neither.
   void hold_more(SurfaceHolds& holds, double& share, const Finding& found) const;
+  /// Adds to the vertices that do not move at all.
+  void hold_still(std::vector<Index>& still, const Finding& found) const;
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;

@@ -181,6 +181,7 @@ TEST_F(TraceDebugger, ARunThatAPredicateBrokeOffIsReplayedAsFarAsItWent) {
   // In a polish, and in an attempt that was given up for the vertices that it took too far.
   const std::string torus = make(ShapeKind::torus, {.triangles = 400, .jitter = 0.3});
   for (const char* words : {"--polish worst --iterations 3 --break 'iteration == 5'",
+                            "--polish mean --iterations 3 --break 'iteration == 5'",
                             "--max-deviation 0.01 --iterations 12 --break 'energy < 1650'"}) {
     const test::Outcome replay = test::run_program("trace replay " + record(torus, words));
     EXPECT_EQ(replay.status, 0) << words << ": " << replay.out;

@@ -65,6 +65,16 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   EXPECT_EQ(mesh.positions, shaken_torus().positions);
 }
 
+TEST(BoundedRun, WhereADirectionForAllLeadsNowhereEachVertexGoesItsOwnWay) {
+  TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 3, .triangles = 800});
+  const BoundedResult result = run_bounded(
+      mesh.positions, mesh.triangles, {.exponent = 2},
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, {0.002});
+  // L-BFGS stalls after 9 steps at 40.77.
+  EXPECT_NE(result.run.stopped, StopReason::stalled);
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, 40.9);
+}
+
 TEST(BoundedRun, EveryStepOfAStatedLimitKeepsIt) {
   const TriangleMesh start = generate(ShapeKind::torus, {.seed = 3, .triangles = 400, .jitter = 0.5});
   for (const SurfaceRule surface : {SurfaceRule::tangent, SurfaceRule::project}) {

@@ -1,0 +1,125 @@
+#include "smoothing/polish_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/parallel.h"
+#include "smoothing/newton_block.h"
+#include "smoothing/tangent.h"
+
+namespace isorelax {
+namespace {
+
+/// A visit moves a vertex at most this share of its shortest edge at a time.
+constexpr double kPolishReach = 0.2;
+
+std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
+  std::vector<std::uint8_t> flags = problem.treated;
+  for (Index t = 0; t < problem.triangle_count(); ++t) {
+    const Triangle& v = problem.triangles[t];
+    if (std::all_of(v.begin(), v.end(), [&](Index i) { return problem.mobility[i] == Mobility::none; }))
+      flags[t] = 0;
+  }
+  return flags;
+}
+
+}  // namespace
+
+PolishState::PolishState(const SmoothingProblem& problem)
+    : problem_(problem),
+      ring_(problem),
+      surface_(problem),
+      can_change_(triangles_that_can_change(problem)),
+      ranges_(problem.triangle_count()) {}
+
+void PolishState::start(std::span<const Vec3> positions) {
+  x_.assign(positions.begin(), positions.end());
+  parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) measure(static_cast<Index>(t));
+  });
+  surface_.start(x_);
+}
+
+void PolishState::measure(Index triangle) {
+  const Triangle& v = problem_.triangles[triangle];
+  if (can_change(triangle)) ranges_[triangle] = angle_range(x_[v[0]], x_[v[1]], x_[v[2]]);
+}
+
+AngleRange PolishState::worst() const {
+  AngleRange worst{180, 0};
+  for (Index t = 0; t < problem_.triangle_count(); ++t) {
+    if (!can_change(t)) continue;
+    worst.min = std::min(worst.min, ranges_[t].min);
+    worst.max = std::max(worst.max, ranges_[t].max);
+  }
+  return worst;
+}
+
+double PolishState::mean() const {
+  double sum = 0;
+  std::size_t count = 0;
+  for (Index t = 0; t < problem_.triangle_count(); ++t) {
+    if (!can_change(t)) continue;
+    sum += ranges_[t].min;
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
+AngleRing& PolishState::look_at(Index vertex) {
+  ring_.look_at(x_, vertex);
+  return ring_;
+}
+
+Vec3 PolishState::uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const {
+  const Vec3 axis = tangent_axis(problem_, x_, vertex);
+  const Vec3 g = tangent_part(problem_.mobility[vertex], axis, soft.gradient);
+  const double slope = g.norm();
+  if (!(slope > 0)) return Vec3::Zero();
+  NewtonBlock block(problem_.mobility[vertex], axis);
+  const double damping = slope / (kPolishReach * ring_.shortest_edge(at));
+  block.h11 = damping + block.t1.dot(soft.spread * block.t1);
+  block.h12 = block.t1.dot(soft.spread * block.t2);
+  block.h22 = damping + block.t2.dot(soft.spread * block.t2);
+  return block.solve(g);
+}
+
+bool PolishState::may_go(Index vertex, const Vec3& there, const AngleRange& floor) {
+  for (const AngleRange& r : ring_.ranges(there))
+    if (r.min < floor.min || r.max > floor.max) return false;
+  const Vec3 here = x_[vertex];
+  x_[vertex] = there;
+  const bool near = surface_.keeps(x_, vertex);
+  x_[vertex] = here;
+  return near;
+}
+
+double PolishState::move(Index vertex, const Vec3& there) {
+  const double distance = (there - x_[vertex]).norm();
+  x_[vertex] = there;
+  const auto ranges = ring_.ranges(there);
+  for (std::size_t i = 0; i < ranges.size(); ++i) ranges_[ring_.triangles()[i]] = ranges[i];
+  return distance;
+}
+
+std::vector<Index> PolishState::settle(std::span<const Vec3> positions, StepRecord& record) {
+  double largest = 0;
+  record.moved = 0;
+  std::vector<Index> changed;
+  for (Index v = 0; v < problem_.vertex_count(); ++v) {
+    record.displacement[v] = x_[v] - positions[v];
+    const double squared = record.displacement[v].squaredNorm();
+    if (!(squared > 0)) continue;
+    largest = std::max(largest, squared);
+    ++record.moved;
+    x_[v] = positions[v] + record.displacement[v];
+    for (const Corner c : problem_.topology.corners_of(v)) changed.push_back(c / 3);
+  }
+  record.largest_move = std::sqrt(largest);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (const Index t : changed) measure(t);
+  return changed;
+}
+
+}  // namespace isorelax

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+
+#include "smoothing/angle_ring.h"
+#include "smoothing/bounded_run.h"
+#include "smoothing/step_record.h"
+#include "smoothing/surface_limit.h"
+
+namespace isorelax {
+
+/// The mesh as the last stage sees it: where the vertices are by now, the extreme angles of the triangles
+/// that can change, and the bounds that every move keeps. Keeps a reference to the problem.
+class PolishState {
+ public:
+  explicit PolishState(const SmoothingProblem& problem);
+
+  /// Goes to these positions and measures all angles there.
+  void start(std::span<const Vec3> positions);
+
+  [[nodiscard]] const SmoothingProblem& problem() const { return problem_; }
+  [[nodiscard]] const std::vector<Vec3>& positions() const { return x_; }
+  /// Whether a triangle is treated and can change: what the others are like is not up to us.
+  [[nodiscard]] bool can_change(Index triangle) const { return can_change_[triangle] != 0; }
+  /// The extreme angles of a triangle that can change.
+  [[nodiscard]] const AngleRange& range(Index triangle) const { return ranges_[triangle]; }
+  /// The smallest and the largest angle of all of them.
+  [[nodiscard]] AngleRange worst() const;
+  /// The mean of their smallest angles.
+  [[nodiscard]] double mean() const;
+
+  /// The triangles around this vertex as they are.
+  AngleRing& look_at(Index vertex);
+  /// The step of the looked-at vertex that leads uphill from `at`: (curvature + |g| / r)^-1 g in its tangent
+  /// space, no longer than r, a share of its shortest edge. Zero where there is no slope.
+  [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
+  /// Whether the looked-at vertex may go there: no triangle gets worse than `floor`, and the surface stays as
+  /// near to where it was as it has to.
+  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, const AngleRange& floor);
+  /// Moves the looked-at vertex. Returns how far.
+  double move(Index vertex, const Vec3& there);
+
+  /// Says in the record how all vertices got here from `positions`, and is from now on where the record
+  /// leads: the same up to rounding. Returns the triangles that have changed.
+  std::vector<Index> settle(std::span<const Vec3> positions, StepRecord& record);
+
+ private:
+  void measure(Index triangle);
+
+  const SmoothingProblem& problem_;
+  AngleRing ring_;
+  SurfaceLimit surface_;
+  std::vector<std::uint8_t> can_change_;
+  std::vector<Vec3> x_;
+  std::vector<AngleRange> ranges_;
+};
+
+/// Times that a move is halved before a vertex stays where it is.
+inline constexpr unsigned kPolishHalvings = 5;
+
+/// One goal of the last stage, sweep by sweep.
+class PolishGoalSweeps {
+ public:
+  PolishGoalSweeps() = default;
+  PolishGoalSweeps(const PolishGoalSweeps&) = delete;
+  PolishGoalSweeps& operator=(const PolishGoalSweeps&) = delete;
+  virtual ~PolishGoalSweeps() = default;
+
+  /// Visits vertices until one has moved. False, with the state as it was, once nothing is left to do.
+  virtual bool sweep(PolishState& state) = 0;
+};
+
+std::unique_ptr<PolishGoalSweeps> raise_worst(const PolishOptions& options);
+std::unique_ptr<PolishGoalSweeps> raise_mean();
+
+}  // namespace isorelax

@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "smoothing/polish_state.h"
+#include "smoothing/trial.h"
+
+namespace isorelax {
+namespace {
+
+/// Sharpness of the soft minimum of a triangle's angles, over what the mean is short of 60 degrees at the
+/// start. The smallest angle itself has kinks that stop a vertex where two angles are equal; a blunt minimum
+/// sees beyond them, and gets sharper with each sweep.
+constexpr double kBluntest = 0.5;
+constexpr double kGrowth = 1.1;
+constexpr double kSharpest = 60;
+constexpr double kLeastShort = 1e-3;
+/// With the sharpest, a sweep that gains less than this, in degrees, is the last.
+constexpr double kLeastMeanGain = 2e-4;
+constexpr unsigned kMostSweeps = 100;
+
+class RaiseMean : public PolishGoalSweeps {
+ public:
+  bool sweep(PolishState& state) override {
+    if (over_) return false;
+    const double before = state.mean();
+    if (!floor_) {
+      floor_ = state.worst();
+      start_ = state.positions();
+      mean_ = before;
+      short_of_ = std::max(60 - before, kLeastShort);
+    }
+    const SmoothingProblem& problem = state.problem();
+    const double sharpness = std::min(kBluntest * std::pow(kGrowth, done_), kSharpest);
+    bool moved = false;
+    for (Index v = 0; v < problem.vertex_count(); ++v)
+      if (problem.mobility[v] != Mobility::none) moved = visit(state, v, sharpness / short_of_) || moved;
+    const double after = state.mean();
+    over_ = !moved || ++done_ == kMostSweeps || (sharpness >= kSharpest && after - before < kLeastMeanGain);
+    if (over_ && after < mean_) state.start(start_);
+    return moved;
+  }
+
+ private:
+  /// Moves a vertex to where the triangles around it are better on average, if it can.
+  bool visit(PolishState& state, Index v, double sharpness) {
+    AngleRing& ring = state.look_at(v);
+    const Vec3 at = state.positions()[v];
+    const AngleRing::Soft soft = ring.sum_of_soft_minima(at, sharpness);
+    Vec3 d = state.uphill(v, at, soft);
+    if (d.isZero(0)) return false;
+    for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
+      const Vec3 there = bring_back(state.problem(), v, at + d);
+      if (!ring.is_upright(there)) continue;
+      if (!(ring.sum_of_soft_minima_value(there, sharpness) > soft.value)) continue;
+      if (!state.may_go(v, there, *floor_)) continue;
+      state.move(v, there);
+      return true;
+    }
+    return false;
+  }
+
+  std::optional<AngleRange> floor_;  // the worst angles at the start: none gets worse
+  std::vector<Vec3> start_;
+  double mean_ = 0;      // at the start
+  double short_of_ = 0;  // what the mean was short of 60 degrees
+  unsigned done_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<PolishGoalSweeps> raise_mean() {
+  return std::make_unique<RaiseMean>();
+}
+
+}  // namespace isorelax

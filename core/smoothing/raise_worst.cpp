@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "smoothing/polish_state.h"
+#include "smoothing/trial.h"
+
+namespace isorelax {
+namespace {
+
+/// Sharpness of the soft minimum, per degree, stage by stage.
+constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+/// A stage ends after this many steps, or when in this many in a row no vertex moves by more than kIdleMove
+/// mean edges and neither of the worst angles gains kGain degrees. All end after kMostSteps.
+constexpr unsigned kStageSteps = 60;
+constexpr unsigned kPolishIdleSteps = 5;
+constexpr unsigned kMostSteps = 300;
+constexpr double kIdleMove = 1e-3;
+constexpr double kGain = 0.005;
+/// Triangles within this many degrees of the worst are treated; halved where the mean would fall too
+/// far, down to the least.
+constexpr double kWindow = 5;
+constexpr double kLeastWindow = 0.5;
+constexpr unsigned kStepsPerVisit = 2;
+
+class RaiseWorst : public PolishGoalSweeps {
+ public:
+  explicit RaiseWorst(const PolishOptions& options) : options_(options) {}
+
+  bool sweep(PolishState& state) override {
+    if (!goal_) {
+      goal_ = {state.worst(), options_.obtuse_weight};
+      mean_ = state.mean();
+    }
+    const std::vector<Vec3> start = state.positions();
+    while (stage_ < kSharpness.size() && done_ < kMostSteps) {
+      if (sweep_once(state)) {
+        ++done_;
+        return true;
+      }
+      state.start(start);
+    }
+    return false;
+  }
+
+ private:
+  /// False if that came to nothing, and another stage or fewer triangles are next.
+  bool sweep_once(PolishState& state) {
+    worst_ = state.worst();
+    const AngleRange before = worst_;
+    double largest = 0;
+    for (const Index v : vertices_in_order(state)) largest = std::max(largest, visit(state, v));
+    worst_ = state.worst();
+    if (mean_ - state.mean() > options_.largest_mean_loss) {
+      // Back to where the step began, and on with fewer triangles.
+      window_ /= 2;
+      if (window_ < kLeastWindow) stage_ = kSharpness.size();
+      return false;
+    }
+    const bool gained = worst_.min > before.min + kGain || worst_.max < before.max - kGain;
+    const bool idle = largest < kIdleMove * state.problem().mean_edge_length && !gained;
+    idle_ = idle ? idle_ + 1 : 0;
+    if (largest > 0 && ++steps_ < kStageSteps && idle_ < kPolishIdleSteps) return true;
+    ++stage_;
+    steps_ = idle_ = 0;
+    return largest > 0;
+  }
+
+  /// How far a triangle is from the worst of the mesh, in the angle in which it is nearer: where the largest
+  /// angle of all can fall no more, the smallest can still rise.
+  [[nodiscard]] double lead(const AngleRange& range) const {
+    return std::min(goal_->of_small(range.min) - goal_->of_small(worst_.min),
+                    goal_->of_large(range.max) - goal_->of_large(worst_.max));
+  }
+
+  /// Free vertices of the triangles to be treated, those of the worst triangles first.
+  [[nodiscard]] std::vector<Index> vertices_in_order(const PolishState& state) const {
+    const SmoothingProblem& problem = state.problem();
+    std::vector<std::pair<double, Index>> led;
+    for (Index t = 0; t < problem.triangle_count(); ++t) {
+      if (!state.can_change(t) || lead(state.range(t)) > window_) continue;
+      for (const Index v : problem.triangles[t])
+        if (problem.mobility[v] != Mobility::none) led.emplace_back(lead(state.range(t)), v);
+    }
+    std::sort(led.begin(), led.end());
+    std::vector<Index> order;
+    std::vector<std::uint8_t> seen(problem.vertex_count(), 0);
+    for (const auto& [lead, v] : led) {
+      if (seen[v] == 0) order.push_back(v);
+      seen[v] = 1;
+    }
+    return order;
+  }
+
+  /// Moves a vertex to where the triangles around it are better, if it can. Returns how far.
+  double visit(PolishState& state, Index v) {
+    AngleRing& ring = state.look_at(v);
+    ring.aim_at(*goal_);
+    const Vec3 start = state.positions()[v];
+    Vec3 at = start;
+    // What a blunt minimum asks for may be too bad for the worst triangle: then a sharper one decides.
+    for (std::size_t s = stage_; s < kSharpness.size() && at == start; ++s) {
+      for (unsigned i = 0; i < kStepsPerVisit; ++i)
+        if (!climb(state, ring, v, kSharpness[s], at)) break;
+    }
+    return at == start ? 0 : state.move(v, at);
+  }
+
+  /// One step of a vertex from `at` to a higher soft minimum. False if there is none.
+  bool climb(PolishState& state, AngleRing& ring, Index v, double sharpness, Vec3& at) {
+    const AngleRing::Soft soft = ring.soft_minimum(at, sharpness);
+    Vec3 d = state.uphill(v, at, soft);
+    for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
+      const Vec3 there = bring_back(state.problem(), v, at + d);
+      if (!ring.is_upright(there)) continue;
+      if (!(ring.soft_minimum_value(there, sharpness) > soft.value)) continue;
+      if (!state.may_go(v, there, goal_->start)) continue;
+      at = there;
+      return true;
+    }
+    return false;
+  }
+
+  PolishOptions options_;
+  std::optional<AngleGoal> goal_;  // no angle gets worse than the worst at the start
+  AngleRange worst_{0, 180};       // of the mesh now
+  double mean_ = 0;                // of the smallest angles at the start
+  double window_ = kWindow;
+  std::size_t stage_ = 0;
+  unsigned steps_ = 0, idle_ = 0, done_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PolishGoalSweeps> raise_worst(const PolishOptions& options) {
+  return std::make_unique<RaiseWorst>(options);
+}
+
+}  // namespace isorelax
