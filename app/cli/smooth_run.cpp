@@ -36,7 +36,8 @@ void SmoothRun::declare(CLI::App& app) {
   app.add_option(
          "--polish", polish_,
          "A last stage. worst: raises the smallest angles themselves, the worst first; mean: raises the mean "
-         "of the triangles' smallest angles, and the worst stay as good as they are; both: worst, then mean; "
+         "of the triangles' smallest angles, and the worst tenth stay as good as they are; both: worst, then "
+         "mean; "
          "none (default)")
       ->type_name("WHAT");
   app.add_option(
@@ -44,6 +45,11 @@ void SmoothRun::declare(CLI::App& app) {
          "For the worst angles, the mean of the triangles' smallest falls by no more, degrees (default 1)")
       ->type_name("DEG")
       ->check(number_between(0, 60));
+  app.add_option("--polish-worst-share", polish_options_.worst_share,
+                 "For the mean, this share of the triangles, the worst, get no worse, and no other as bad "
+                 "(default 0.1)")
+      ->type_name("SHARE")
+      ->check(number_between(0, 1));
   app.add_option(
          "--max-deviation", limit_.max,
          "Largest distance from the input surface, of its bounding-box diagonal (default: as near as costs "

@@ -24,6 +24,9 @@ struct PolishOptions {
   /// For the sake of the worst, the mean of the triangles' smallest angles falls by no more than this, in
   /// degrees.
   double largest_mean_loss = 1;
+  /// For the sake of the mean, this share of the triangles, 0..1, those with the worst angles of either kind,
+  /// get no worse, and no other one gets as bad. 0: the very worst is the bound of all.
+  double worst_share = 0.1;
   /// What a degree that the largest angle falls counts, beside a degree that the smallest rises.
   double obtuse_weight = 2;
   unsigned iterations = 400;

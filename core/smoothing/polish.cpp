@@ -13,7 +13,7 @@ class PolishSmoother : public Smoother {
   PolishSmoother(const SmoothingProblem& problem, const PolishOptions& options)
       : problem_(problem), state_(problem), objective_(problem) {
     if (options.goal != PolishGoal::mean) goals_.push_back(raise_worst(options));
-    if (options.goal != PolishGoal::worst) goals_.push_back(raise_mean());
+    if (options.goal != PolishGoal::worst) goals_.push_back(raise_mean(options));
   }
 
   [[nodiscard]] bool descends() const override { return false; }

@@ -31,6 +31,9 @@ inline constexpr double kPolishTolerance = std::numeric_limits<double>::min();
 /// For the mean, each step visits all vertices in order and moves each to a higher sum of the soft minima of
 /// the angles of each triangle around it, which get sharper from step to step.
 ///
+/// The worst tenth of the triangles (PolishOptions::worst_share) gets no worse by that, and no other triangle
+/// gets as bad.
+///
 /// No angle gets worse than the worst at the start of the goal, and no triangle turns over. Moves keep to
 /// tangent spaces, borders, ridges and the frozen surface as all others do. Does not
 /// depend on threads. Keeps a reference to the problem.

@@ -84,9 +84,12 @@ Vec3 PolishState::uphill(Index vertex, const Vec3& at, const AngleRing::Soft& so
   return block.solve(g);
 }
 
-bool PolishState::may_go(Index vertex, const Vec3& there, const AngleRange& floor) {
-  for (const AngleRange& r : ring_.ranges(there))
-    if (r.min < floor.min || r.max > floor.max) return false;
+bool PolishState::may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
+  const auto ranges = ring_.ranges(there);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const AngleRange& bound = bounds[ring_.triangles()[i]];
+    if (ranges[i].min < bound.min || ranges[i].max > bound.max) return false;
+  }
   const Vec3 here = x_[vertex];
   x_[vertex] = there;
   const bool near = surface_.keeps(x_, vertex);

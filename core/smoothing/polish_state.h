@@ -34,9 +34,9 @@ class PolishState {
   /// The step of the looked-at vertex that leads uphill from `at`: (curvature + |g| / r)^-1 g in its tangent
   /// space, no longer than r, a share of its shortest edge. Zero where there is no slope.
   [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
-  /// Whether the looked-at vertex may go there: no triangle gets worse than `floor`, and the surface stays as
-  /// near to where it was as it has to.
-  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, const AngleRange& floor);
+  /// Whether the looked-at vertex may go there: no triangle gets angles beyond its bounds, by number, and the
+  /// surface stays as near to where it was as it has to.
+  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
   /// Moves the looked-at vertex. Returns how far.
   double move(Index vertex, const Vec3& there);
 
@@ -71,6 +71,6 @@ class PolishGoalSweeps {
 };
 
 std::unique_ptr<PolishGoalSweeps> raise_worst(const PolishOptions& options);
-std::unique_ptr<PolishGoalSweeps> raise_mean();
+std::unique_ptr<PolishGoalSweeps> raise_mean(const PolishOptions& options);
 
 }  // namespace isorelax

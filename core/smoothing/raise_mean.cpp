@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <functional>
 
 #include "smoothing/polish_state.h"
 #include "smoothing/trial.h"
@@ -19,14 +19,38 @@ constexpr double kLeastShort = 1e-3;
 constexpr double kLeastMeanGain = 2e-4;
 constexpr unsigned kMostSweeps = 100;
 
+/// Bounds by triangle: of those that can change, the worst share get no worse, and no other gets as bad.
+std::vector<AngleRange> bounds_of(const PolishState& state, double worst_share) {
+  std::vector<double> smallest, largest;
+  const auto triangles = static_cast<Index>(state.problem().triangle_count());
+  for (Index t = 0; t < triangles; ++t) {
+    if (!state.can_change(t)) continue;
+    smallest.push_back(state.range(t).min);
+    largest.push_back(state.range(t).max);
+  }
+  std::vector<AngleRange> bounds(triangles, {0, 180});
+  if (smallest.empty()) return bounds;
+  const double count = static_cast<double>(smallest.size());
+  const auto rank = static_cast<std::ptrdiff_t>(std::min(worst_share * count, count - 1));
+  std::nth_element(smallest.begin(), smallest.begin() + rank, smallest.end());
+  std::nth_element(largest.begin(), largest.begin() + rank, largest.end(), std::greater<>());
+  const double small = smallest[static_cast<std::size_t>(rank)];
+  const double large = largest[static_cast<std::size_t>(rank)];
+  for (Index t = 0; t < triangles; ++t)
+    bounds[t] = {std::min(small, state.range(t).min), std::max(large, state.range(t).max)};
+  return bounds;
+}
+
 class RaiseMean : public PolishGoalSweeps {
  public:
+  explicit RaiseMean(const PolishOptions& options) : worst_share_(options.worst_share) {}
+
   bool sweep(PolishState& state) override {
     if (over_) return false;
     const double before = state.mean();
-    if (!floor_) {
-      floor_ = state.worst();
+    if (start_.empty()) {
       start_ = state.positions();
+      bounds_ = bounds_of(state, worst_share_);
       mean_ = before;
       short_of_ = std::max(60 - before, kLeastShort);
     }
@@ -53,14 +77,15 @@ class RaiseMean : public PolishGoalSweeps {
       const Vec3 there = bring_back(state.problem(), v, at + d);
       if (!ring.is_upright(there)) continue;
       if (!(ring.sum_of_soft_minima_value(there, sharpness) > soft.value)) continue;
-      if (!state.may_go(v, there, *floor_)) continue;
+      if (!state.may_go(v, there, bounds_)) continue;
       state.move(v, there);
       return true;
     }
     return false;
   }
 
-  std::optional<AngleRange> floor_;  // the worst angles at the start: none gets worse
+  double worst_share_;
+  std::vector<AngleRange> bounds_;
   std::vector<Vec3> start_;
   double mean_ = 0;      // at the start
   double short_of_ = 0;  // what the mean was short of 60 degrees
@@ -70,8 +95,8 @@ class RaiseMean : public PolishGoalSweeps {
 
 }  // namespace
 
-std::unique_ptr<PolishGoalSweeps> raise_mean() {
-  return std::make_unique<RaiseMean>();
+std::unique_ptr<PolishGoalSweeps> raise_mean(const PolishOptions& options) {
+  return std::make_unique<RaiseMean>(options);
 }
 
 }  // namespace isorelax

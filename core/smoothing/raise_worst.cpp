@@ -31,6 +31,7 @@ class RaiseWorst : public PolishGoalSweeps {
     if (!goal_) {
       goal_ = {state.worst(), options_.obtuse_weight};
       mean_ = state.mean();
+      bounds_.assign(state.problem().triangle_count(), goal_->start);
     }
     const std::vector<Vec3> start = state.positions();
     while (stage_ < kSharpness.size() && done_ < kMostSteps) {
@@ -114,7 +115,7 @@ class RaiseWorst : public PolishGoalSweeps {
       const Vec3 there = bring_back(state.problem(), v, at + d);
       if (!ring.is_upright(there)) continue;
       if (!(ring.soft_minimum_value(there, sharpness) > soft.value)) continue;
-      if (!state.may_go(v, there, goal_->start)) continue;
+      if (!state.may_go(v, there, bounds_)) continue;
       at = there;
       return true;
     }
@@ -122,9 +123,10 @@ class RaiseWorst : public PolishGoalSweeps {
   }
 
   PolishOptions options_;
-  std::optional<AngleGoal> goal_;  // no angle gets worse than the worst at the start
-  AngleRange worst_{0, 180};       // of the mesh now
-  double mean_ = 0;                // of the smallest angles at the start
+  std::optional<AngleGoal> goal_;
+  std::vector<AngleRange> bounds_;  // no angle gets worse than the worst at the start
+  AngleRange worst_{0, 180};        // of the mesh now
+  double mean_ = 0;                 // of the smallest angles at the start
   double window_ = kWindow;
   std::size_t stage_ = 0;
   unsigned steps_ = 0, idle_ = 0, done_ = 0;
