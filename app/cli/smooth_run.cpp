@@ -2,8 +2,11 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "cli/checks.h"
 #include "cli/console.h"

@@ -12,6 +12,28 @@ namespace {
 /// degrees.
 constexpr double kLeastRingCosine = 0.5;
 
+double soft_value_of(std::span<const double> scores, double sharpness) {
+  const double least = *std::min_element(scores.begin(), scores.end());
+  double sum = 0;
+  for (const double s : scores) sum += std::exp(-sharpness * (s - least));
+  return least - std::log(sum) / sharpness;
+}
+
+AngleRing::Soft soft_of(std::span<const double> scores, std::span<const Vec3> gradients, double sharpness) {
+  const double least = *std::min_element(scores.begin(), scores.end());
+  double sum = 0;
+  Vec3 mean = Vec3::Zero();
+  Mat3 squares = Mat3::Zero();
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double weight = std::exp(-sharpness * (scores[i] - least));
+    sum += weight;
+    mean += weight * gradients[i];
+    squares += weight * gradients[i] * gradients[i].transpose();
+  }
+  mean /= sum;
+  return {least - std::log(sum) / sharpness, mean, sharpness * (squares / sum - mean * mean.transpose())};
+}
+
 }  // namespace
 
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -92,60 +114,30 @@ void AngleRing::collect(const Vec3& at, std::vector<Vec3>* gradients) {
 
 double AngleRing::soft_minimum_value(const Vec3& at, double sharpness) {
   collect(at, nullptr);
-  const double least = *std::min_element(scores_.begin(), scores_.end());
-  double sum = 0;
-  for (const double s : scores_) sum += std::exp(-sharpness * (s - least));
-  return least - std::log(sum) / sharpness;
+  return soft_value_of(scores_, sharpness);
 }
 
 AngleRing::Soft AngleRing::soft_minimum(const Vec3& at, double sharpness) {
   collect(at, &gradients_);
-  const double least = *std::min_element(scores_.begin(), scores_.end());
-  double sum = 0;
-  Vec3 mean = Vec3::Zero();
-  Mat3 squares = Mat3::Zero();
-  for (std::size_t i = 0; i < scores_.size(); ++i) {
-    const double weight = std::exp(-sharpness * (scores_[i] - least));
-    sum += weight;
-    mean += weight * gradients_[i];
-    squares += weight * gradients_[i] * gradients_[i].transpose();
-  }
-  mean /= sum;
-  return {least - std::log(sum) / sharpness, mean, sharpness * (squares / sum - mean * mean.transpose())};
+  return soft_of(scores_, gradients_, sharpness);
 }
 
 double AngleRing::sum_of_soft_minima_value(const Vec3& at, double sharpness) const {
   double value = 0;
-  for (const Side& side : sides_) {
-    const auto a = angles(side, at, nullptr);
-    const double least = std::min({a[0], a[1], a[2]});
-    double sum = 0;
-    for (const double angle : a) sum += std::exp(-sharpness * (angle - least));
-    value += least - std::log(sum) / sharpness;
-  }
+  for (const Side& side : sides_) value += soft_value_of(angles(side, at, nullptr), sharpness);
   return value;
 }
 
 AngleRing::Soft AngleRing::sum_of_soft_minima(const Vec3& at, double sharpness) const {
-  Soft all{sum_of_soft_minima_value(at, sharpness), Vec3::Zero(), Mat3::Zero()};
-  std::array<Vec3, 3> g;
+  Soft sum{0, Vec3::Zero(), Mat3::Zero()};
+  std::array<Vec3, 3> gradients;
   for (const Side& side : sides_) {
-    const auto a = angles(side, at, &g);
-    const double least = std::min({a[0], a[1], a[2]});
-    double sum = 0;
-    Vec3 mean = Vec3::Zero();
-    Mat3 squares = Mat3::Zero();
-    for (unsigned k = 0; k < 3; ++k) {
-      const double weight = std::exp(-sharpness * (a[k] - least));
-      sum += weight;
-      mean += weight * g[k];
-      squares += weight * g[k] * g[k].transpose();
-    }
-    mean /= sum;
-    all.gradient += mean;
-    all.spread += sharpness * (squares / sum - mean * mean.transpose());
+    const Soft soft = soft_of(angles(side, at, &gradients), gradients, sharpness);
+    sum.value += soft.value;
+    sum.gradient += soft.gradient;
+    sum.spread += soft.spread;
   }
-  return all;
+  return sum;
 }
 
 double AngleRing::shortest_edge(const Vec3& at) const {

@@ -6,12 +6,15 @@
 #include "mesh/parallel.h"
 #include "smoothing/newton_block.h"
 #include "smoothing/tangent.h"
+#include "smoothing/trial.h"
 
 namespace isorelax {
 namespace {
 
 /// A visit moves a vertex at most this share of its shortest edge at a time.
 constexpr double kPolishReach = 0.2;
+/// Times that a move is halved before a vertex stays where it is.
+constexpr unsigned kPolishHalvings = 5;
 
 std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
   std::vector<std::uint8_t> flags = problem.treated;
@@ -71,6 +74,19 @@ AngleRing& PolishState::look_at(Index vertex) {
   return ring_;
 }
 
+std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const AngleRing::Soft& soft,
+                                       const std::function<double(const Vec3&)>& value,
+                                       std::span<const AngleRange> bounds) {
+  Vec3 d = uphill(vertex, at, soft);
+  if (d.isZero(0)) return std::nullopt;
+  for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
+    const Vec3 there = bring_back(problem_, vertex, at + d);
+    if (ring_.is_upright(there) && value(there) > soft.value && may_go(vertex, there, bounds)) return there;
+  }
+  return std::nullopt;
+}
+
+/// (curvature + |g| / r)^-1 g in the vertex's tangent space, no longer than r, a share of its shortest edge.
 Vec3 PolishState::uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const {
   const Vec3 axis = tangent_axis(problem_, x_, vertex);
   const Vec3 g = tangent_part(problem_.mobility[vertex], axis, soft.gradient);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "smoothing/angle_ring.h"
 #include "smoothing/bounded_run.h"
@@ -31,12 +33,12 @@ class PolishState {
 
   /// The triangles around this vertex as they are.
   AngleRing& look_at(Index vertex);
-  /// The step of the looked-at vertex that leads uphill from `at`: (curvature + |g| / r)^-1 g in its tangent
-  /// space, no longer than r, a share of its shortest edge. Zero where there is no slope.
-  [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
-  /// Whether the looked-at vertex may go there: no triangle gets angles beyond its bounds, by number, and the
-  /// surface stays as near to where it was as it has to.
-  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
+  /// Where one step of the looked-at vertex leads that raises `value`, of which `soft` tells the slope at
+  /// `at`, if one does. No triangle turns over or gets angles beyond its bounds (by number), and the surface
+  /// stays as near to where it was as it has to.
+  [[nodiscard]] std::optional<Vec3> climb(Index vertex, const Vec3& at, const AngleRing::Soft& soft,
+                                          const std::function<double(const Vec3&)>& value,
+                                          std::span<const AngleRange> bounds);
   /// Moves the looked-at vertex. Returns how far.
   double move(Index vertex, const Vec3& there);
 
@@ -46,6 +48,8 @@ class PolishState {
 
  private:
   void measure(Index triangle);
+  [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
+  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
 
   const SmoothingProblem& problem_;
   AngleRing ring_;
@@ -54,9 +58,6 @@ class PolishState {
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
 };
-
-/// Times that a move is halved before a vertex stays where it is.
-inline constexpr unsigned kPolishHalvings = 5;
 
 /// One goal of the last stage, sweep by sweep.
 class PolishGoalSweeps {

@@ -3,7 +3,6 @@
 #include <functional>
 
 #include "smoothing/polish_state.h"
-#include "smoothing/trial.h"
 
 namespace isorelax {
 namespace {
@@ -61,8 +60,9 @@ class RaiseMean : public PolishGoalSweeps {
       if (problem.mobility[v] != Mobility::none) moved = visit(state, v, sharpness / short_of_) || moved;
     const double after = state.mean();
     over_ = !moved || ++done_ == kMostSweeps || (sharpness >= kSharpest && after - before < kLeastMeanGain);
-    if (over_ && after < mean_) state.start(start_);
-    return moved;
+    if (!over_ || after >= mean_) return moved;
+    state.start(start_);
+    return true;
   }
 
  private:
@@ -70,18 +70,10 @@ class RaiseMean : public PolishGoalSweeps {
   bool visit(PolishState& state, Index v, double sharpness) {
     AngleRing& ring = state.look_at(v);
     const Vec3 at = state.positions()[v];
-    const AngleRing::Soft soft = ring.sum_of_soft_minima(at, sharpness);
-    Vec3 d = state.uphill(v, at, soft);
-    if (d.isZero(0)) return false;
-    for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
-      const Vec3 there = bring_back(state.problem(), v, at + d);
-      if (!ring.is_upright(there)) continue;
-      if (!(ring.sum_of_soft_minima_value(there, sharpness) > soft.value)) continue;
-      if (!state.may_go(v, there, bounds_)) continue;
-      state.move(v, there);
-      return true;
-    }
-    return false;
+    const auto value = [&](const Vec3& there) { return ring.sum_of_soft_minima_value(there, sharpness); };
+    const auto there = state.climb(v, at, ring.sum_of_soft_minima(at, sharpness), value, bounds_);
+    if (there) state.move(v, *there);
+    return there.has_value();
   }
 
   double worst_share_;

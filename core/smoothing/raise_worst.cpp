@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "smoothing/polish_state.h"
-#include "smoothing/trial.h"
 
 namespace isorelax {
 namespace {
@@ -109,17 +107,10 @@ class RaiseWorst : public PolishGoalSweeps {
 
   /// One step of a vertex from `at` to a higher soft minimum. False if there is none.
   bool climb(PolishState& state, AngleRing& ring, Index v, double sharpness, Vec3& at) {
-    const AngleRing::Soft soft = ring.soft_minimum(at, sharpness);
-    Vec3 d = state.uphill(v, at, soft);
-    for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
-      const Vec3 there = bring_back(state.problem(), v, at + d);
-      if (!ring.is_upright(there)) continue;
-      if (!(ring.soft_minimum_value(there, sharpness) > soft.value)) continue;
-      if (!state.may_go(v, there, bounds_)) continue;
-      at = there;
-      return true;
-    }
-    return false;
+    const auto value = [&](const Vec3& there) { return ring.soft_minimum_value(there, sharpness); };
+    const auto there = state.climb(v, at, ring.soft_minimum(at, sharpness), value, bounds_);
+    if (there) at = *there;
+    return there.has_value();
   }
 
   PolishOptions options_;

@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t kLeafSize = 2;
 /// Median splits halve the count: 2^32 triangles are 32 levels.
 constexpr std::size_t kMaxDepth = 40;
-constexpr double kNowhere = std::numeric_limits<double>::infinity();
+constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
 
 /// The best point so far, as weights of the corners.
 struct Candidate {
   Vec3 weights = Vec3::Zero();
   Vec3 point = Vec3::Zero();
-  double squared = kNowhere;
+  double squared = kInfinitelyFar;
 
   /// Takes the closest point of the edge from corner i (at x) to corner j (at y) where that is nearer.
   void try_edge(const Vec3& p, const Vec3& x, const Vec3& y, unsigned i, unsigned j) {
@@ -185,7 +185,8 @@ struct ClosestPointIndex::Search {
   Vec3 p;
   Candidate best;
   Index triangle = kNone;
-  double bound = kNowhere;  ///< boxes farther than this hold nothing as near; a little over best.squared
+  double bound =
+      kInfinitelyFar;  ///< boxes farther than this hold nothing as near; a little over best.squared
 
   void look_at(const Record& r) {
     const Candidate found = isorelax::closest(p, r.a, r.b, r.c);
@@ -209,7 +210,7 @@ struct ClosestPointIndex::Search {
 };
 
 SurfacePoint ClosestPointIndex::closest(const Vec3& point, Index hint) const {
-  Search search{point, {}, kNone, kNowhere};
+  Search search{point, {}, kNone, kInfinitelyFar};
   if (hint < record_of_.size()) search.look_at(records_[record_of_[hint]]);
   if (nodes_.empty())
     for (const Record& r : records_) search.look_at(r);
@@ -234,7 +235,7 @@ SurfacePoint ClosestPointIndex::closest(const Vec3& point, Index hint) const {
     for (const unsigned side : {1 - nearer, nearer})
       if (d[side] <= search.bound) stack[depth++] = {d[side], node.child[side], node.count[side]};
   }
-  if (!(search.best.squared < kNowhere)) return {kNone, Vec3::Zero(), Vec3::Zero(), kNowhere};
+  if (!(search.best.squared < kInfinitelyFar)) return {kNone, Vec3::Zero(), Vec3::Zero(), kInfinitelyFar};
   return {search.triangle, search.best.weights, search.best.point, std::sqrt(search.best.squared)};
 }
 

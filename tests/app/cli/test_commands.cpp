@@ -118,6 +118,23 @@ TEST(SmoothCommand, NamesTheLineOfAVertexThatCannotBePinned) {
   EXPECT_NE(outcome.err.find(pins + ": line 2: names vertex 7"), std::string::npos) << outcome.err;
 }
 
+TEST(SmoothCommand, PolishesWhatItIsAskedTo) {
+  const Workspace workspace;
+  const std::string square = workspace.path("square.off");
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + square).status, 0);
+  const std::string smooth = "smooth " + square + " -o " + workspace.path("o.off") + " --polish ";
+  std::vector<std::string> results;
+  for (const char* words : {"none", "worst", "mean", "both", "mean --polish-worst-share 0"}) {
+    const Outcome outcome = run_program(smooth + words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    results.push_back(contents(workspace.path("o.off")));
+    EXPECT_EQ(std::count(results.begin(), results.end(), results.back()), 1) << words;
+  }
+  const Outcome wrong = run_program(smooth + "neither");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("expected worst, mean, both or none"), std::string::npos) << wrong.err;
+}
+
 TEST(SmoothCommand, PinsByPredicate) {
   const Workspace workspace;
   const std::string square = workspace.path("square.off");
