@@ -68,4 +68,15 @@ ReferenceMesh ReferenceMesh::of_mesh(std::span<const Vec3> positions, std::span<
   return reference;
 }
 
+ReferenceMesh ReferenceMesh::in_order(std::span<const Index> order) const {
+  ReferenceMesh ordered;
+  ordered.count_ = count_;
+  if (d1_.size() == 1) ordered.d1_ = d1_;
+  for (const Index t : order) {
+    if (d1_.size() > 1) ordered.d1_.push_back(d1_[t]);
+    if (!cot_.empty()) ordered.cot_.push_back(cot_[t]);
+  }
+  return ordered;
+}
+
 }  // namespace isorelax

@@ -40,6 +40,9 @@ class ReferenceMesh {
   /// mean area; its number is listed in `replaced()`.
   static ReferenceMesh of_mesh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
+  /// The same with the triangles in another order: `order[0]` first.
+  [[nodiscard]] ReferenceMesh in_order(std::span<const Index> order) const;
+
   [[nodiscard]] Index triangle_count() const { return count_; }
   [[nodiscard]] bool is_equilateral() const { return cot_.empty(); }
   /// One equilateral reference serves all triangles.
@@ -49,7 +52,7 @@ class ReferenceMesh {
   [[nodiscard]] ReferenceTriangle operator[](Index t) const {
     return is_equilateral() ? equilateral_reference(d1(t)) : ReferenceTriangle{cot_[t], d1(t)};
   }
-  /// Triangles for which a degenerate reference was replaced.
+  /// Triangles for which a degenerate reference was replaced; none in another order.
   [[nodiscard]] std::span<const Index> replaced() const { return replaced_; }
 
  private:

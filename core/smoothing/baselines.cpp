@@ -7,6 +7,7 @@
 #include "mesh/angle.h"
 #include "mesh/parallel.h"
 #include "smoothing/guarded_smoother.h"
+#include "smoothing/renumbered_smoother.h"
 #include "smoothing/tangent.h"
 
 namespace isorelax {
@@ -158,12 +159,16 @@ class AngleBased : public Baseline {
 }  // namespace
 
 std::unique_ptr<Smoother> make_laplacian(const SmoothingProblem& problem, const LaplacianOptions& options) {
-  return std::make_unique<Laplacian>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<Laplacian>(numbered, options);
+  });
 }
 
 std::unique_ptr<Smoother> make_angle_based(const SmoothingProblem& problem,
                                            const AngleBasedOptions& options) {
-  return std::make_unique<AngleBased>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<AngleBased>(numbered, options);
+  });
 }
 
 }  // namespace isorelax

@@ -149,7 +149,7 @@ void FoldControl::limit(Trial& trial, StepRecord& record) {
     std::vector<Cut>& cuts = block_cuts_[begin / kBlockSize];
     cuts.clear();
     for (std::size_t first = begin; first < end; first += kLanes) {
-      check(trial, BatchIds::in_order(problem_.order.triangles, first, end), cuts);
+      check(trial, BatchIds::of_range(first, end), cuts);
     }
   });
   std::vector<Cut> all;

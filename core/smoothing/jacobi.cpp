@@ -1,4 +1,5 @@
 #include "smoothing/guarded_smoother.h"
+#include "smoothing/renumbered_smoother.h"
 #include "smoothing/tangent.h"
 
 namespace isorelax {
@@ -29,7 +30,9 @@ class JacobiSmoother : public GuardedSmoother {
 }  // namespace
 
 std::unique_ptr<Smoother> make_jacobi(const SmoothingProblem& problem, const JacobiOptions& options) {
-  return std::make_unique<JacobiSmoother>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<JacobiSmoother>(numbered, options);
+  });
 }
 
 }  // namespace isorelax

@@ -3,6 +3,7 @@
 
 #include "smoothing/guarded_smoother.h"
 #include "smoothing/lbfgs_memory.h"
+#include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
 namespace {
@@ -128,7 +129,9 @@ class LbfgsSmoother : public GuardedSmoother {
 }  // namespace
 
 std::unique_ptr<Smoother> make_lbfgs(const SmoothingProblem& problem, const LbfgsOptions& options) {
-  return std::make_unique<LbfgsSmoother>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<LbfgsSmoother>(numbered, options);
+  });
 }
 
 }  // namespace isorelax

@@ -1,15 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <span>
 
 #include "smoothing/run.h"
 
 namespace isorelax {
-
-/// Makes the smoother for a problem.
-using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
 
 /// The largest deviations for a mesh when nobody stated one, over the bounding-box diagonal, with c the mean
 /// of edge length times dihedral turn over the smooth edges.

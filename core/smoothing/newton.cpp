@@ -1,6 +1,7 @@
 #include "smoothing/guarded_smoother.h"
 #include "smoothing/local_minimum.h"
 #include "smoothing/newton_block.h"
+#include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
 namespace {
@@ -60,7 +61,9 @@ class NewtonSmoother : public GuardedSmoother {
 }  // namespace
 
 std::unique_ptr<Smoother> make_newton(const SmoothingProblem& problem, const NewtonOptions& options) {
-  return std::make_unique<NewtonSmoother>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<NewtonSmoother>(numbered, options);
+  });
 }
 
 }  // namespace isorelax

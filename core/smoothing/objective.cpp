@@ -185,13 +185,9 @@ const StepTotals& Objective::evaluate(std::span<const Vec3> positions) {
   at_.clear();
   parallel_for_blocks(problem_->triangle_count(), problem_->threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; first += kLanes)
-      evaluate_batch(positions, BatchIds::in_order(problem_->order.triangles, first, end));
-    if (problem_->order.triangles.empty()) sum_block(begin / kBlockSize);
+      evaluate_batch(positions, BatchIds::of_range(first, end));
+    sum_block(begin / kBlockSize);
   });
-  if (!problem_->order.triangles.empty()) {
-    parallel_for_blocks(problem_->triangle_count(), problem_->threads,
-                        [&](std::size_t begin, std::size_t) { sum_block(begin / kBlockSize); });
-  }
   sum_blocks();
   return totals_;
 }
@@ -240,14 +236,6 @@ VertexSums Objective::gather_as(Index vertex) const {
   }
   sums.gradient = {gx, gy, gz};
   return sums;
-}
-
-void Objective::prefetch(Index vertex) const {
-  for (const Corner c : problem_->topology.corners_of(vertex)) {
-    const TriangleState* state = &states_[c / 3];
-    __builtin_prefetch(state);
-    __builtin_prefetch(&state->g0z);
-  }
 }
 
 VertexSums Objective::gather(Index vertex) const {

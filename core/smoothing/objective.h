@@ -52,8 +52,6 @@ class Objective {
 
   /// Per triangle, at the last evaluation.
   [[nodiscard]] const TriangleState& state(Index t) const { return states_[t]; }
-  /// Asks for the states around a vertex that will be needed soon.
-  void prefetch(Index vertex) const;
 
   /// Per triangle, at the last evaluation; 0 for untreated triangles.
   [[nodiscard]] std::span<const double> shape() const { return shape_; }

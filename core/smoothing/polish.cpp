@@ -4,6 +4,7 @@
 
 #include "smoothing/objective.h"
 #include "smoothing/polish_state.h"
+#include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
 namespace {
@@ -51,7 +52,9 @@ class PolishSmoother : public Smoother {
 }  // namespace
 
 std::unique_ptr<Smoother> make_polish(const SmoothingProblem& problem, const PolishOptions& options) {
-  return std::make_unique<PolishSmoother>(problem, options);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<PolishSmoother>(numbered, options);
+  });
 }
 
 }  // namespace isorelax

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/error.h"
+#include "smoothing/renumbered_problem.h"
 #include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
 
@@ -199,7 +200,13 @@ class ProblemBuilder {
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
-    p_.surface = std::make_shared<FrozenSurface>(x_, p_.triangles, p_.topology, p_.classes, options_.threads);
+    p_.numbering.empty() ? freeze(x_, p_) : freeze(in_order(p_.numbering.vertices, x_), renumbered(p_));
+    for (Index v = 0; v < p_.vertex_count(); ++v) p_.anchors.push_back(p_.surface->anchor(v));
+    if (!p_.numbering.empty()) p_.anchors = in_order(inverse(p_.numbering.vertices), p_.anchors);
+  }
+
+  void freeze(std::span<const Vec3> x, const SmoothingProblem& p) {
+    p_.surface = std::make_shared<FrozenSurface>(x, p.triangles, p.topology, p.classes, options_.threads);
   }
 
   // Where areas count more than angles, or the reference has angles of its own, worse ones may be asked for.
@@ -312,10 +319,11 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .border = {},
                            .plane_normal = {},
                            .surface = {},
+                           .anchors = {},
                            .near = {},
                            .initial_normals = {},
                            .worst_angles = {},
-                           .order = VisitOrder(positions, triangles),
+                           .numbering = Renumbering(positions, triangles),
                            .mean_edge_length = 0,
                            .threads = options.threads,
                            .notes = {}};
@@ -344,10 +352,8 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
   for (Index v = 0; v < problem.vertex_count() && !can_leave; ++v)
     can_leave = problem.topology.is_boundary(v) && problem.mobility[v] != Mobility::none;
   if (std::isfinite(holds.distance) && can_leave) {
-    NearSurface& near = problem.near.emplace();
-    near.distance = holds.distance;
-    near.positions.assign(positions.begin(), positions.end());
-    near.surface = std::make_shared<ClosestPointIndex>(positions, problem.triangles);
+    problem.near.emplace(holds.distance, std::vector<Vec3>(positions.begin(), positions.end()),
+                         problem.triangles);
   }
   if (!holds.still.empty()) {
     problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +

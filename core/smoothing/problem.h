@@ -9,8 +9,8 @@
 
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
+#include "smoothing/renumbering.h"
 #include "smoothing/untangle.h"
-#include "smoothing/visit_order.h"
 #include "smoothing/worst_angles.h"
 #include "surface/frozen_surface.h"
 #include "surface/vertex_class.h"
@@ -97,7 +97,12 @@ enum class Mobility : std::uint8_t { none, line, plane };
 
 /// The surface as it was, that the mesh has to stay near.
 struct NearSurface {
-  double distance = 0;                               ///< length units
+  NearSurface(double limit, std::vector<Vec3> x, std::span<const Triangle> triangles)
+      : distance(limit),
+        positions(std::move(x)),
+        surface(std::make_shared<ClosestPointIndex>(positions, triangles)) {}
+
+  double distance;                                   ///< length units
   std::vector<Vec3> positions;                       ///< as they were
   std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles
 };
@@ -120,6 +125,8 @@ struct SmoothingProblem {
   std::optional<Vec3> plane_normal;
   /// What vertices are brought back to; none for tangent moves and where there is nothing to leave.
   std::shared_ptr<const FrozenSurface> surface;
+  /// Where on it each vertex was at the start; its triangles have their own numbers.
+  std::vector<SurfaceAnchor> anchors;
   /// What the surface must not go far from; none where nobody asks.
   std::optional<NearSurface> near;
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
@@ -128,7 +135,8 @@ struct SmoothingProblem {
   /// 120 degrees where none is larger than 100. No limit where areas count more than angles or the reference
   /// is not equilateral.
   WorstAngles worst_angles;
-  VisitOrder order;
+  /// What smoothers number it by, in a copy.
+  Renumbering numbering;
   double mean_edge_length = 0;
   unsigned threads = 0;
   /// What was pinned and left out, in words for the user.

@@ -26,6 +26,9 @@ class Smoother {
   [[nodiscard]] virtual bool descends() const { return true; }
 };
 
+/// Makes the smoother for a problem.
+using SmootherFactory = std::function<std::unique_ptr<Smoother>(const SmoothingProblem&)>;
+
 /// Options of the paper's step (Sec. 3, Eq. 9).
 struct JacobiOptions {
   /// Factor on the displacement of Eq. 9.

@@ -1,3 +1,4 @@
+#include "smoothing/renumbered_smoother.h"
 #include "smoothing/run.h"
 
 #include <algorithm>
@@ -58,7 +59,9 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver 
     case Solver::automatic:
       break;
   }
-  return std::make_unique<AutomaticSmoother>(problem, detail);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<AutomaticSmoother>(numbered, detail);
+  });
 }
 
 }  // namespace isorelax

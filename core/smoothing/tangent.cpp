@@ -18,7 +18,7 @@ Vec3 line_direction(const SmoothingProblem& problem, std::span<const Vec3> posit
 /// Whether a vertex takes its tangent space from the frozen surface that its moves are brought back to.
 bool follows_surface(const SmoothingProblem& problem, Index vertex) {
   if (!problem.surface || problem.mobility[vertex] == Mobility::none) return false;
-  return problem.mobility[vertex] == Mobility::line ? problem.surface->anchor(vertex).edge != kNone
+  return problem.mobility[vertex] == Mobility::line ? problem.anchors[vertex].edge != kNone
                                                     : !problem.plane_normal;
 }
 
@@ -27,7 +27,7 @@ bool follows_surface(const SmoothingProblem& problem, Index vertex) {
 Vec3 tangent_axis(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex) {
   if (follows_surface(problem, vertex)) {
     return problem.surface->tangent_axis(positions[vertex], class_on_surface(problem, vertex),
-                                         problem.surface->anchor(vertex));
+                                         problem.anchors[vertex]);
   }
   const bool on_line = problem.mobility[vertex] == Mobility::line;
   if (problem.plane_normal && !on_line) return *problem.plane_normal;
@@ -37,10 +37,7 @@ Vec3 tangent_axis(const SmoothingProblem& problem, std::span<const Vec3> positio
                  : Vec3(decompose(covariance).vectors.col(0));
 }
 
-void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch,
-                          std::size_t first) const {
-  const std::size_t end = std::min<std::size_t>(first + 2 * kLanes, problem_.vertex_count());
-  for (std::size_t next = first + kLanes; next < end; ++next) here.prefetch(visited(next));
+void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const {
   for (unsigned i = 0; i < batch.count; ++i) batch.sums[i] = here.gather(batch.vertices[i]);
   if (problem_.plane_normal) {
     batch.axes.fill(*problem_.plane_normal);
@@ -55,8 +52,8 @@ void TangentSweep::gather(const Objective& here, std::span<const Vec3> positions
     const Index v = batch.vertices[i];
     const Mobility mobility = problem_.mobility[v];
     if (follows_surface(problem_, v)) {
-      batch.axes[i] = problem_.surface->tangent_axis(positions[v], class_on_surface(problem_, v),
-                                                     problem_.surface->anchor(v));
+      batch.axes[i] =
+          problem_.surface->tangent_axis(positions[v], class_on_surface(problem_, v), problem_.anchors[v]);
     } else if (mobility == Mobility::line) {
       batch.axes[i] = line_direction(problem_, positions, v, batch.sums[i].covariance);
     }

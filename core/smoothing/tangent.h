@@ -57,8 +57,8 @@ class TangentSweep {
       TangentBatch batch;
       for (std::size_t first = begin; first < end; first += kLanes) {
         batch.count = static_cast<unsigned>(std::min<std::size_t>(kLanes, end - first));
-        for (unsigned i = 0; i < batch.count; ++i) batch.vertices[i] = visited(first + i);
-        gather(here, positions, batch, first);
+        for (unsigned i = 0; i < batch.count; ++i) batch.vertices[i] = static_cast<Index>(first + i);
+        gather(here, positions, batch);
         for (unsigned i = 0; i < batch.count; ++i) squares += batch.gradients[i].squaredNorm();
         body(std::as_const(batch));
       }
@@ -68,13 +68,7 @@ class TangentSweep {
   }
 
  private:
-  /// The vertex that comes at this place.
-  [[nodiscard]] Index visited(std::size_t place) const {
-    return problem_.order.vertices.empty() ? static_cast<Index>(place) : problem_.order.vertices[place];
-  }
-  /// `first`: the place of the batch' first vertex.
-  void gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch,
-              std::size_t first) const;
+  void gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const;
   [[nodiscard]] double norm() const;
 
   const SmoothingProblem& problem_;

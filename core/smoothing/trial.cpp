@@ -21,25 +21,22 @@ constexpr double kLeastSlide = 1e-3;
 Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target) {
   if (!problem.surface) return target;
   // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
-  const SurfaceAnchor anchor = problem.surface->anchor(vertex);
+  const SurfaceAnchor anchor = problem.anchors[vertex];
   const auto [there, at] = problem.surface->project(target, class_on_surface(problem, vertex), anchor);
   if (!problem.near) return there;
-  const NearSurface& near = *problem.near;
   const double share = at.edge == kNone ? kLargestShareOnSurface : kLargestShareOnCurves;
-  const double most = share * near.distance;
-  const auto lift = closest_point_of_triangle(there, near.positions, problem.triangles, at.triangle).distance;
-  if (lift <= most) return there;
-  const SurfacePoint foot = near.surface->closest(there, at.triangle);
+  const double most = share * problem.near->distance;
+  if (problem.surface->closest_of(at.triangle, there).distance <= most) return there;
+  const SurfacePoint foot = problem.surface->closest(there, at.triangle);
   return foot.distance <= most ? there : Vec3(foot.point + (there - foot.point) * (most / foot.distance));
 }
 
 void Trial::start(std::span<const Vec3> from, StepRecord& record) {
   from_ = from;
   to_.resize(from.size());
-  const std::vector<Index>& order = problem_.order.vertices;
   if (bends_) tangent_ = record.displacement;
   parallel_for_blocks(from.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) place(record, order.empty() ? static_cast<Index>(i) : order[i]);
+    for (std::size_t v = begin; v < end; ++v) place(record, static_cast<Index>(v));
   });
   take_touched();
 }

@@ -21,13 +21,6 @@ struct BatchIds {
     for (unsigned i = 0; i < kLanes; ++i) ids.at[i] = static_cast<Index>(first + std::min(i, ids.count - 1));
     return ids;
   }
-  /// Those at the places first, first + 1, ... below end of an order; empty: that of their numbers.
-  static BatchIds in_order(std::span<const Index> order, std::size_t first, std::size_t end) {
-    BatchIds ids = of_range(first, end);
-    if (order.empty()) return ids;
-    for (Index& id : ids.at) id = order[id];
-    return ids;
-  }
   /// list[first], list[first + 1], ...
   static BatchIds of_list(std::span<const Index> list, std::size_t first) {
     BatchIds ids = of_range(first, list.size());

@@ -175,7 +175,7 @@ void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& c
 // Queries -------------------------------------------------------------------------------------------------
 
 SurfacePoint FrozenSurface::walk(const Vec3& point, Index triangle) const {
-  const auto foot = [&](Index t) { return closest_point_of_triangle(point, x_, triangles_, t); };
+  const auto foot = [&](Index t) { return closest_of(t, point); };
   return walk_nearer(
       foot(triangle), foot, [&](Corner c) { return opposite_[c]; },
       [&](Corner c) { return faces_.corners(faces_.of(c)); });

@@ -60,6 +60,10 @@ class FrozenSurface {
   [[nodiscard]] SurfacePoint closest(const Vec3& point, Index hint = kNone) const {
     return flat_.closest(point, hint);
   }
+  /// The closest point of one of them.
+  [[nodiscard]] SurfacePoint closest_of(Index triangle, const Vec3& point) const {
+    return closest_point_of_triangle(point, x_, triangles_, triangle);
+  }
 
  private:
   /// A point of a triangle with its lifted one.

@@ -1,4 +1,4 @@
-#include "smoothing/visit_order.h"
+#include "smoothing/renumbering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ std::vector<Index> sorted_by(const std::vector<std::uint64_t>& keys) {
 
 }  // namespace
 
-VisitOrder::VisitOrder(std::span<const Vec3> positions, std::span<const Triangle> of) {
+Renumbering::Renumbering(std::span<const Vec3> positions, std::span<const Triangle> of) {
   if (!is_random(of, positions.size())) return;
   Vec3 low = positions.front();
   Vec3 high = low;
@@ -58,6 +58,12 @@ VisitOrder::VisitOrder(std::span<const Vec3> positions, std::span<const Triangle
   for (std::size_t t = 0; t < of.size(); ++t)
     first[t] = std::min({keys[of[t][0]], keys[of[t][1]], keys[of[t][2]]});
   triangles = sorted_by(first);
+}
+
+std::vector<Index> inverse(std::span<const Index> order) {
+  std::vector<Index> places(order.size());
+  for (Index place = 0; place < order.size(); ++place) places[order[place]] = place;
+  return places;
 }
 
 }  // namespace isorelax
