@@ -27,8 +27,8 @@ void draw_solver(const Ui& ui) {
   constexpr int kMinimisers = 4;
   constexpr const char* kTip =
       "How each step is found: the paper's Jacobi step, Newton steps of each vertex, L-BFGS over all of "
-      "them, or "
-      "Newton followed by L-BFGS. Laplacian and angle-based smoothing are there to compare with.";
+      "them, or automatically: steps that even the mesh out, Newton steps, then L-BFGS. Laplacian and "
+      "angle-based smoothing are there to compare with.";
   SmoothingSettings settings = ui.session.smoothing;
   row_label(ui, "Solver", kTip);
   const bool minimises = settings.method == model::Method::near_isometry;

@@ -69,7 +69,7 @@ std::unique_ptr<Smoother> make_lbfgs(const SmoothingProblem& problem, const Lbfg
 
 /// Which way of stepping.
 enum class Solver : std::uint8_t {
-  automatic,  ///< Newton steps while they pay, then L-BFGS to convergence
+  automatic,  ///< evening out (make_even_out) and Newton steps while they pay, then L-BFGS to convergence
   jacobi,     ///< the paper's
   newton,
   lbfgs,

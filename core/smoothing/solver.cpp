@@ -1,11 +1,13 @@
-#include "smoothing/renumbered_smoother.h"
-#include "smoothing/run.h"
-
 #include <algorithm>
+
+#include "smoothing/even_out.h"
+#include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
 namespace {
 
+/// Evening out is cheap and soon done: what gains less than this share of the energy is the last such step.
+constexpr double kEvenGain = 0.05;
 /// Newton steps open the worst places fast, each vertex at its own pace; once none is left that bad (E over
 /// the sum of the weights), a step gains less than this share of the energy, L-BFGS converges faster. While
 /// one is left, less will do.
@@ -16,30 +18,50 @@ constexpr double kLeastGain = 0.002;
 class AutomaticSmoother : public Smoother {
  public:
   AutomaticSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : bad_(kBadEnergy * (problem.weights.shape + problem.weights.area)),
+      : problem_(problem),
+        detail_(detail),
         newton_(make_smoother(problem, Solver::newton, detail)),
         lbfgs_(make_smoother(problem, Solver::lbfgs, detail)) {}
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     // Elsewhere than the last step led, everything starts anew.
-    if (!std::ranges::equal(positions, led_to_)) converging_ = false;
-    if (converging_) lbfgs_->step(positions, record);
+    if (!std::ranges::equal(positions, led_to_)) begin();
+    if (phase_ == Phase::even) even_out_->step(positions, record);
+    if (phase_ == Phase::lbfgs) lbfgs_->step(positions, record);
     // A direction for all may lead nowhere where many vertices are held back; one for each alone may still
     // do.
-    if (converging_ && record.moved == 0 && record.energy_passes > 0) converging_ = false;
-    if (!converging_) newton_->step(positions, record);
+    if (phase_ != Phase::newton && record.moved == 0) phase_ = Phase::newton;
+    if (phase_ == Phase::newton) newton_->step(positions, record);
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
-    if (converging_) return;
-    const double gain = (record.before.energy - record.after.energy) / record.before.energy;
-    converging_ = gain < (record.after.worst_energy > bad_ ? kLeastGain : kWorthwhileGain);
+    choose_next(record);
   }
 
  private:
-  double bad_;
-  std::unique_ptr<Smoother> newton_, lbfgs_;
+  enum class Phase : std::uint8_t { even, newton, lbfgs };
+
+  void begin() {
+    phase_ = wants_even(problem_) ? Phase::even : Phase::newton;
+    if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
+  }
+
+  void choose_next(const StepRecord& record) {
+    const double gain = (record.before.energy - record.after.energy) / record.before.energy;
+    if (phase_ == Phase::even) {
+      if (gain < kEvenGain) phase_ = Phase::newton;
+    } else if (phase_ == Phase::newton) {
+      const bool bad =
+          record.after.worst_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
+      if (gain < (bad ? kLeastGain : kWorthwhileGain)) phase_ = Phase::lbfgs;
+    }
+    if (phase_ != Phase::even) even_out_.reset();
+  }
+
+  const SmoothingProblem& problem_;
+  RecordDetail detail_;
+  std::unique_ptr<Smoother> even_out_, newton_, lbfgs_;
   std::vector<Vec3> led_to_;
-  bool converging_ = false;
+  Phase phase_ = Phase::even;
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ std::vector<Way> ways() {
   return {{"jacobi", solver(Solver::jacobi)},
           {"newton", solver(Solver::newton)},
           {"lbfgs", solver(Solver::lbfgs)},
+          {"automatic", solver(Solver::automatic)},
           {"laplacian", [](const SmoothingProblem& problem) { return make_laplacian(problem); }},
           {"angle-based", [](const SmoothingProblem& problem) { return make_angle_based(problem); }}};
 }
