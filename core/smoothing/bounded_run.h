@@ -22,7 +22,7 @@ enum class PolishGoal : std::uint8_t { worst, mean, both };
 struct PolishOptions {
   PolishGoal goal = PolishGoal::worst;
   /// For the sake of the worst, the mean of the triangles' smallest angles falls by no more than this, in
-  /// degrees.
+  /// degrees, and by no more than 0.1 beyond what the very worst have gained.
   double largest_mean_loss = 1;
   /// For the sake of the mean, this share of the triangles, 0..1, those with the worst angles of either kind,
   /// get no worse, and no other one gets as bad. 0: the very worst is the bound of all.

@@ -20,6 +20,8 @@ constexpr double kGain = 0.005;
 constexpr double kWindow = 5;
 constexpr double kLeastWindow = 0.5;
 constexpr unsigned kStepsPerVisit = 2;
+/// Degrees of the mean that may be lost for the sake of triangles that are not the worst.
+constexpr double kFreeLoss = 0.1;
 
 class RaiseWorst : public PolishGoalSweeps {
  public:
@@ -50,7 +52,7 @@ class RaiseWorst : public PolishGoalSweeps {
     double largest = 0;
     for (const Index v : vertices_in_order(state)) largest = std::max(largest, visit(state, v));
     worst_ = state.worst();
-    if (mean_ - state.mean() > options_.largest_mean_loss) {
+    if (mean_ - state.mean() > allowed_loss()) {
       // Back to where the step began, and on with fewer triangles.
       window_ /= 2;
       if (window_ < kLeastWindow) stage_ = kSharpness.size();
@@ -63,6 +65,12 @@ class RaiseWorst : public PolishGoalSweeps {
     ++stage_;
     steps_ = idle_ = 0;
     return largest > 0;
+  }
+
+  /// Where the worst of all gain nothing, the next ones are not worth much of the mean.
+  [[nodiscard]] double allowed_loss() const {
+    const double gain = std::max(worst_.min - goal_->start.min, goal_->start.max - worst_.max);
+    return std::min(options_.largest_mean_loss, kFreeLoss + gain);
   }
 
   /// How far a triangle is from the worst of the mesh, in the angle in which it is nearer: where the largest
