@@ -169,7 +169,8 @@ void draw_move_section(const Ui& ui, const VertexExplanation& e) {
     value_row(ui, {"move/downhill", "Angle to downhill", number_text("%.1f", angle) + std::string(kDegree),
                    exact_text(angle),
                    "Between the proposed move and minus the gradient in the tangent space. Above 90 degrees "
-                   "it points uphill: methods without an energy may, single vertices of L-BFGS, too.",
+                   "it points uphill: methods without an energy may, so may single vertices of L-BFGS and of "
+                   "the steps that even the mesh out.",
                    angle > 90 ? color::kWorse : color::kText});
   }
   value_row(ui, {"move/alpha", "Accepted share \xCE\xB1", percent(e.alpha), exact_text(e.alpha),

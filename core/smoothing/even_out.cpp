@@ -13,7 +13,7 @@ constexpr unsigned kSweeps = 20;
 class EvenOutSmoother : public GuardedSmoother {
  public:
   EvenOutSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : GuardedSmoother(problem, detail),
+      : GuardedSmoother(problem, detail, StepGuard::all_or_nothing),
         sweep_(problem),
         axes_(problem.vertex_count()),
         x_(problem.vertex_count()),

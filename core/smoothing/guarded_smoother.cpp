@@ -57,7 +57,7 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   trial_.start(positions, record);
   if (guard_ != StepGuard::none) fold_.limit(trial_, record);
   record.after = there_.evaluate(trial_.to());
-  if (guard_ == StepGuard::folds_and_energy) guard_energy(record);
+  if (guard_ == StepGuard::folds_and_energy || guard_ == StepGuard::all_or_nothing) guard_energy(record);
   there_.mark(trial_.to());
   last_energy_rounds_ = record.energy_passes;
   finish(record);
@@ -112,8 +112,9 @@ void GuardedSmoother::guard_energy(StepRecord& record) {
     const auto cut = [&](Index v, double factor) {
       if (trial_.cut(record, v, factor, kLimitEnergy)) note_cut(record, v, kNone);
     };
-    if (round < local) {
-      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0.5);
+    if (guard_ == StepGuard::all_or_nothing || round < local) {
+      const double factor = guard_ == StepGuard::all_or_nothing ? 0 : 0.5;
+      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, factor);
     } else if (round < local + kLocalRounds) {
       for (const Index v : vertices_where_energy_rose()) cut(v, 0.5);
     } else {

@@ -9,6 +9,7 @@ namespace isorelax {
 /// What keeps a step from doing harm.
 enum class StepGuard : std::uint8_t {
   folds_and_energy,  ///< no triangle folds and the energy does not rise
+  all_or_nothing,    ///< no triangle folds, and where the energy would rise nothing moves
   folds,             ///< no triangle folds
   none,
 };

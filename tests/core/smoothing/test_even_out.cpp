@@ -86,11 +86,15 @@ TEST(EvenOut, BeginsAutomaticRunsThatWantEvenTriangles) {
     EXPECT_EQ(one_step(mesh, options, automatic).displacement, one_step(mesh, options, newton).displacement);
 }
 
-/// Where all is done, evening out would only do harm: the run goes on without it.
-TEST(EvenOut, EndsNoRun) {
+/// Where all is done, evening out would only do harm: it does nothing, and the run goes on without it.
+TEST(EvenOut, DoesNoHarmAndEndsNoRun) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 4, .triangles = 1000});
   const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
   run(*newton(problem), problem, mesh.positions, {.iterations = 40, .tolerance = 0});
+  const StepRecord harm = one_step(mesh, {}, even_out);
+  EXPECT_EQ(harm.moved, 0U);
+  EXPECT_EQ(harm.energy_passes, 1U);
+  EXPECT_EQ(harm.after.energy, harm.before.energy);
   const RunResult result = run(*automatic(problem), problem, mesh.positions, {});
   EXPECT_GT(result.iterations, 5U);
   EXPECT_LT(result.after.energy, result.before.energy);
