@@ -112,9 +112,10 @@ void GuardedSmoother::guard_energy(StepRecord& record) {
     const auto cut = [&](Index v, double factor) {
       if (trial_.cut(record, v, factor, kLimitEnergy)) note_cut(record, v, kNone);
     };
-    if (guard_ == StepGuard::all_or_nothing || round < local) {
-      const double factor = guard_ == StepGuard::all_or_nothing ? 0 : 0.5;
-      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, factor);
+    if (guard_ == StepGuard::all_or_nothing) {
+      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0);
+    } else if (round < local) {
+      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0.5);
     } else if (round < local + kLocalRounds) {
       for (const Index v : vertices_where_energy_rose()) cut(v, 0.5);
     } else {
