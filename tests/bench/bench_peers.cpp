@@ -26,6 +26,8 @@ constexpr unsigned kPeerIterations = 50;
 constexpr unsigned kOurIterations = 200;
 /// Areas go through Ceres, vertex by vertex.
 constexpr unsigned kPeerAreaIterations = 10;
+/// The worst angles as good as can be, then the mean, with no triangle but the worst to hold it back.
+constexpr PolishOptions kForTheMean{.goal = PolishGoal::both, .worst_share = 0};
 
 struct Result {
   std::string name;
@@ -160,8 +162,9 @@ class Comparison {
     against(openmesh(mesh_, held_));
     print_row(best);
     std::vector<Moment> moments;
-    const PolishOptions both{.goal = PolishGoal::both};
-    print_row(ours("Isorelax, polished", mesh_, topology_, {}, both, moments));
+    print_row(
+        ours("Isorelax, polished", mesh_, topology_, {}, PolishOptions{.goal = PolishGoal::both}, moments));
+    print_row(ours("Isorelax, polished for the mean", mesh_, topology_, {}, kForTheMean, moments));
     std::printf("\n");
   }
 
@@ -181,10 +184,9 @@ class Comparison {
     std::vector<Moment> moments;
     const Result near = ours("Isorelax, no farther than that", mesh_, topology_, {.max = far}, {}, moments);
     print_row(near, time_to_reach(quality, moments));
-    const PolishOptions both{.goal = PolishGoal::both};
     moments.clear();
-    const Result polished =
-        ours("Isorelax, no farther and polished", mesh_, topology_, {.max = far}, both, moments);
+    const Result polished = ours("Isorelax, no farther, polished for the mean", mesh_, topology_,
+                                 {.max = far}, kForTheMean, moments);
     print_row(polished, time_to_reach(quality, moments));
   }
 
@@ -229,8 +231,9 @@ int run(std::span<char*> names) {
       "seconds, and in the last column the seconds that Isorelax takes to be as good as the peer in the\n"
       "smallest angle and the mean (-: it is not), free and as near as the peer. Peers hold the boundary\n"
       "and all features. Where a peer stays nearer to the input, or got better by going farther, the row\n"
-      "below is ours with that distance as its limit, and the next is that polished. Polished are both:\n"
-      "the worst angles, then the mean.\n\n");
+      "below is ours with that distance as its limit, and the next is that polished for the mean. Polished\n"
+      "are the worst angles, then the mean, while the worst tenth of the triangles stay as good as they\n"
+      "are; for the mean, while the worst of all does.\n\n");
   std::printf("  %-44s %7s %7s %7s  %8s %8s %8s %5s %8s %9s\n\n", "", "min", "max", "mean", "max dev",
               "rms dev", "volume", "inv", "seconds", "ours then");
   if (!names.empty()) {
