@@ -84,7 +84,8 @@ void declare_method(CLI::App& app, MethodSpec& spec) {
                  "neighbours) or angle-based (to the bisectors at the neighbours, Zhou and Shimada)")
       ->type_name("METHOD");
   app.add_option("--solver", spec.solver,
-                 "Of near-isometry: auto (default: evening out, Newton steps, then L-BFGS), jacobi (the paper's step), "
+                 "Of near-isometry: auto (default: evening out, Newton steps, then L-BFGS), jacobi (the "
+                 "paper's step), "
                  "newton or lbfgs")
       ->type_name("SOLVER");
   app.add_option("--weighting", spec.weighting,

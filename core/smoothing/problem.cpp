@@ -200,13 +200,17 @@ class ProblemBuilder {
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
-    p_.numbering.empty() ? freeze(x_, p_) : freeze(in_order(p_.numbering.vertices, x_), renumbered(p_));
-    for (Index v = 0; v < p_.vertex_count(); ++v) p_.anchors.push_back(p_.surface->anchor(v));
-    if (!p_.numbering.empty()) p_.anchors = in_order(inverse(p_.numbering.vertices), p_.anchors);
+    if (p_.numbering.empty()) {
+      freeze(x_, p_);
+    } else {
+      freeze(in_order(p_.numbering.vertices, x_), renumbered(p_));
+      p_.anchors = in_order(inverse(p_.numbering.vertices), p_.anchors);
+    }
   }
 
   void freeze(std::span<const Vec3> x, const SmoothingProblem& p) {
     p_.surface = std::make_shared<FrozenSurface>(x, p.triangles, p.topology, p.classes, options_.threads);
+    for (Index v = 0; v < p.vertex_count(); ++v) p_.anchors.push_back(p_.surface->anchor(v));
   }
 
   // Where areas count more than angles, or the reference has angles of its own, worse ones may be asked for.
