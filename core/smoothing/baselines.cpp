@@ -34,22 +34,12 @@ class Baseline : public GuardedSmoother {
 
  private:
   double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) override {
-    const double norm = find_tangents(positions, here, record);
+    const double norm = sweep_.find_tangents(here, positions, record.gradient, axes_);
     prepare(positions);
     parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) move(positions, static_cast<Index>(v), record);
     });
     return norm;
-  }
-
-  /// Gradients and tangent spaces of all vertices; the norm of the tangent gradient.
-  double find_tangents(std::span<const Vec3> positions, const Objective& here, StepRecord& record) {
-    return sweep_.run(here, positions, [&](const TangentBatch& batch) {
-      for (unsigned i = 0; i < batch.count; ++i) {
-        axes_[batch.vertices[i]] = batch.axes[i];
-        record.gradient[batch.vertices[i]] = batch.sums[i].gradient;
-      }
-    });
   }
 
   void move(std::span<const Vec3> x, Index v, StepRecord& record) const {

@@ -37,12 +37,7 @@ class EvenOutSmoother : public GuardedSmoother {
   }
 
   double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) override {
-    const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {
-      for (unsigned i = 0; i < batch.count; ++i) {
-        axes_[batch.vertices[i]] = batch.axes[i];
-        record.gradient[batch.vertices[i]] = batch.sums[i].gradient;
-      }
-    });
+    const double norm = sweep_.find_tangents(here, positions, record.gradient, axes_);
     x_.assign(positions.begin(), positions.end());
     for (unsigned k = 0; k < kSweeps; ++k) {
       for_vertices([&](Index v) { next_[v] = swept(v); });

@@ -67,6 +67,17 @@ class TangentSweep {
     return norm();
   }
 
+  /// The gradients of all vertices and what spans their tangent spaces. Returns the same norm.
+  double find_tangents(const Objective& here, std::span<const Vec3> positions, std::span<Vec3> gradients,
+                       std::span<Vec3> axes) {
+    return run(here, positions, [&](const TangentBatch& batch) {
+      for (unsigned i = 0; i < batch.count; ++i) {
+        gradients[batch.vertices[i]] = batch.sums[i].gradient;
+        axes[batch.vertices[i]] = batch.axes[i];
+      }
+    });
+  }
+
  private:
   void gather(const Objective& here, std::span<const Vec3> positions, TangentBatch& batch) const;
   [[nodiscard]] double norm() const;
