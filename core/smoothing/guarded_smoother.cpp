@@ -10,13 +10,15 @@
 namespace isorelax {
 namespace {
 
-/// Rounds of the energy guard. A direction for all is first shortened as a whole; then only vertices around
-/// which the energy rose are cut back; then the vertices of every triangle that got worse; at last those are
-/// stopped.
+/// Rounds of the energy guard. A direction for all is first shortened as a whole, unless it leads uphill;
+/// then only vertices around which the energy rose are cut back; then the vertices of every triangle that got
+/// worse; at last those are stopped.
 constexpr unsigned kAlikeRounds = 4;
-constexpr unsigned kAlikeRoundsAtLimit = 2;
 constexpr unsigned kLocalRounds = 6;
 constexpr unsigned kTriangleRounds = 4;
+/// How much of a direction for all a round leaves.
+constexpr double kLeastWay = 0.1;
+constexpr double kLongestWay = 0.5;
 
 /// A move below this share of the mean edge length is not worth making.
 constexpr double kConvergedMove = 1e-12;
@@ -103,10 +105,10 @@ void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord&
 /// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,
 /// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
-  const bool at_limit =
-      std::ranges::any_of(record.limits, [](auto limits) { return (limits & kLimitSurface) != 0; });
-  const unsigned local = cuts_all_alike() ? (at_limit ? kAlikeRoundsAtLimit : kAlikeRounds) : 0;
+  const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
   for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
+    const double way = round < local ? way_downhill(record) : 0;
+    if (way == 0) round = std::max(round, local);
     ++record.energy_passes;
     begin_pass(record, kLimitEnergy);
     const auto cut = [&](Index v, double factor) {
@@ -115,7 +117,7 @@ void GuardedSmoother::guard_energy(StepRecord& record) {
     if (guard_ == StepGuard::all_or_nothing) {
       for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0);
     } else if (round < local) {
-      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, 0.5);
+      for (Index v = 0; v < problem_.vertex_count(); ++v) cut(v, way);
     } else if (round < local + kLocalRounds) {
       for (const Index v : vertices_where_energy_rose()) cut(v, 0.5);
     } else {
@@ -127,6 +129,18 @@ void GuardedSmoother::guard_energy(StepRecord& record) {
     changed.insert(changed.end(), unfolded.begin(), unfolded.end());
     record.after = there_.update(trial_.to(), changed);
   }
+}
+
+/// The share of the accepted moves after which the energy is least, were it a parabola along them; 0 where it
+/// rises from the start, as it may where some of them were held back.
+double GuardedSmoother::way_downhill(const StepRecord& record) const {
+  double slope = 0;
+  for (Index v = 0; v < problem_.vertex_count(); ++v)
+    slope += record.alpha[v] * record.gradient[v].dot(record.displacement[v]);
+  if (!(slope < 0)) return 0;
+  const double rise = record.after.energy - record.before.energy;
+  const double least = 0.5 * slope / (slope - rise);
+  return least > kLeastWay ? std::min(least, kLongestWay) : kLeastWay;
 }
 
 std::vector<Index> GuardedSmoother::vertices_of_worse_triangles() const {

@@ -45,6 +45,7 @@ class GuardedSmoother : public Smoother {
   void record_triangles(StepRecord& record) const;
   void record_stages(std::span<const Vec3> positions, StepRecord& record) const;
   void guard_energy(StepRecord& record);
+  [[nodiscard]] double way_downhill(const StepRecord& record) const;
   [[nodiscard]] std::vector<Index> vertices_where_energy_rose() const;
   [[nodiscard]] std::vector<Index> vertices_of_worse_triangles() const;
   void finish(StepRecord& record) const;
