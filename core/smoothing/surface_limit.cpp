@@ -21,6 +21,7 @@ constexpr double kSharpTurnDeg = 10;
 /// An edge is divided that often at most, and not too near to an end.
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
+constexpr unsigned kMostParts = 16;
 /// Share of a vertex' move that counts at a point from which on it is to blame.
 constexpr double kLeastWeight = 0.05;
 
@@ -70,12 +71,17 @@ SurfaceLimit::View SurfaceLimit::view_of(std::size_t line, std::span<const Vec3>
   return {false, then[a], then[b], x};
 }
 
+SurfacePoint SurfaceLimit::closest_of(const View& view, Index triangle, const Vec3& point) const {
+  if (view.now) return problem_.near->surface->closest_of(triangle, point);
+  return closest_point_of_triangle(point, view.surface, problem_.triangles, triangle);
+}
+
 /// A walk mostly ends at the closest point of all. Where it leads too far, as on the wrong side of a ridge,
 /// that is looked for: in the index of the surface as it was, or farther about.
 SurfacePoint SurfaceLimit::nearest(const View& view, const Vec3& point, Index triangle) const {
   const Topology& topology = problem_.topology;
   const auto foot = [&](Index t) {
-    return closest_point_of_triangle(point, view.surface, problem_.triangles, t);
+    return closest_of(view, t, point);
   };
   const auto about = [&](Corner c) { return topology.corners_of(problem_.triangles[c / 3][c % 3]); };
   const auto walk_from = [&](const SurfacePoint& start) {
@@ -122,8 +128,7 @@ bool SurfaceLimit::is_near_still(const Line& line) const {
 LineBound SurfaceLimit::bound(const View& view, const Sample& a, const Sample& b) const {
   const auto distance = [&](const Sample& at, const Foot& other) {
     if (at.foot.triangle == other.triangle) return at.foot.distance;
-    return closest_point_of_triangle(view.at(at.share), view.surface, problem_.triangles, other.triangle)
-        .distance;
+    return closest_of(view, other.triangle, view.at(at.share)).distance;
   };
   return bound_between(a.foot.distance, distance(b, a.foot), distance(a, b.foot), b.foot.distance);
 }
@@ -149,6 +154,39 @@ bool SurfaceLimit::is_near(const View& view, const Sample& a, const Sample& b, u
          is_near(view, between, b, divisions - 1, line);
 }
 
+/// A bound on the distances from an edge of now, followed over the triangles of then from the one nearest to
+/// its first end. The distance to a triangle is convex: on the part of the edge that lies over it, it is
+/// largest at an end of that part.
+double SurfaceLimit::bound_along(const View& view, Index triangle) const {
+  double most = 0, at = 0;
+  for (unsigned parts = 0; parts < kMostParts; ++parts) {
+    const PreparedTriangle& t = problem_.near->surface->prepared(triangle);
+    if (!t.has_area) return INFINITY;
+    const Vec3 first = t.barycentric(view.first);
+    const Vec3 change = t.barycentric(view.second) - first;
+    double end = 1;
+    unsigned side = 3;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (!(change[k] < 0) || !(-first[k] > end * change[k])) continue;
+      end = -first[k] / change[k];
+      side = k;
+    }
+    end = std::max(end, at);
+    for (const double share : {at, end}) {
+      Vec3 w = (first + share * change).cwiseMax(0);
+      w /= w.sum();
+      const Vec3 foot = w[0] * t.a + w[1] * t.b + w[2] * t.c;
+      most = std::max(most, (view.at(share) - foot).squaredNorm());
+    }
+    if (side == 3) return std::sqrt(most);
+    const Corner across = problem_.topology.opposite(3 * triangle + side);
+    if (across == kNone) return INFINITY;
+    triangle = across / 3;
+    at = end;
+  }
+  return INFINITY;
+}
+
 void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::array<Foot, 2>& ends) {
   Line& line = lines_[id];
   const View view = view_of(id, x);
@@ -159,6 +197,11 @@ void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::a
   line.peak = a.foot.distance < b.foot.distance ? b : a;
   if (view.now) {
     for (const Index v : ends_of_[id]) note_use(line, v);
+  }
+  if (view.now && line.peak.foot.distance <= seen_ && a.foot.triangle != b.foot.triangle) {
+    line.bound = bound_along(view, a.foot.triangle);
+    if (line.bound <= proven_) return;
+    line.bound = 0;
   }
   if (line.peak.foot.distance > seen_ || !is_near(view, a, b, kDivisions, line)) line.bound = INFINITY;
 }

@@ -77,6 +77,7 @@ class SurfaceLimit {
   void prepare();
   [[nodiscard]] bool is_of_now(std::size_t line) const { return line < count_now_; }
   [[nodiscard]] View view_of(std::size_t line, std::span<const Vec3> x) const;
+  [[nodiscard]] SurfacePoint closest_of(const View& view, Index triangle, const Vec3& point) const;
   [[nodiscard]] SurfacePoint nearest(const View& view, const Vec3& point, Index triangle) const;
   [[nodiscard]] Foot foot_of(bool now, std::span<const Vec3> x, Index vertex) const;
   [[nodiscard]] bool is_near_still(const Line& line) const;
@@ -84,6 +85,7 @@ class SurfaceLimit {
   void measure(std::size_t id, std::span<const Vec3> x, const std::array<Foot, 2>& ends);
   [[nodiscard]] bool is_near(const View& view, const Sample& a, const Sample& b, unsigned divisions,
                              Line& line) const;
+  [[nodiscard]] double bound_along(const View& view, Index triangle) const;
   [[nodiscard]] LineBound bound(const View& view, const Sample& a, const Sample& b) const;
   void note_use(Line& line, Index vertex) const;
   void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;

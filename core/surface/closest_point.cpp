@@ -36,44 +36,53 @@ struct Candidate {
   }
 };
 
+/// A coordinate from which on a point may be the corner itself.
+constexpr double kAtCorner = 1 - 1e-6;
+
 /// Barycentric coordinates of the foot of p decide: a point outside of one edge only has its closest point on
 /// that edge, outside of two on one of the two.
-Candidate closest(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+inline Candidate closest(const Vec3& p, const PreparedTriangle& t) {
   Candidate best;
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const Vec3 n = ab.cross(ac);
-  const double n2 = n.squaredNorm();
-  const double v = ap.cross(ac).dot(n), w = ab.cross(ap).dot(n), u = n2 - v - w;
-  // A vertex is at distance zero, not at rounding error.
-  if (p == a) return {{1, 0, 0}, p, 0};
-  if (p == b) return {{0, 1, 0}, p, 0};
-  if (p == c) return {{0, 0, 1}, p, 0};
-  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  // The rule of has_no_area, squared; where that underflows, the edges are all there is, too.
-  const bool flat = !(n2 > 4 * kDegenerateArea * kDegenerateArea * longest2 * longest2);
-  if (!flat && u >= 0 && v >= 0 && w >= 0) {
-    best.weights = {u / n2, v / n2, w / n2};
-    best.point = a + best.weights[1] * ab + best.weights[2] * ac;
+  const Vec3 ap = p - t.a;
+  const double v = ap.dot(t.gradient_b), w = ap.dot(t.gradient_c), u = 1 - v - w;
+  if (t.has_area && u >= 0 && v >= 0 && w >= 0) {
+    best.weights = {u, v, w};
+    best.point = t.a + v * (t.b - t.a) + w * (t.c - t.a);
     best.squared = (p - best.point).squaredNorm();
+    // A vertex is at distance zero, not at rounding error.
+    if (v > kAtCorner && p == t.b) return {{0, 1, 0}, p, 0};
+    if (w > kAtCorner && p == t.c) return {{0, 0, 1}, p, 0};
     return best;
   }
-  if (flat || u < 0) best.try_edge(p, b, c, 1, 2);
-  if (flat || v < 0) best.try_edge(p, c, a, 2, 0);
-  if (flat || w < 0) best.try_edge(p, a, b, 0, 1);
+  if (!t.has_area || u < 0) best.try_edge(p, t.b, t.c, 1, 2);
+  if (!t.has_area || v < 0) best.try_edge(p, t.c, t.a, 2, 0);
+  if (!t.has_area || w < 0) best.try_edge(p, t.a, t.b, 0, 1);
   return best;
 }
 
 }  // namespace
 
+PreparedTriangle::PreparedTriangle(const Vec3& at_a, const Vec3& at_b, const Vec3& at_c)
+    : a(at_a), b(at_b), c(at_c) {
+  const Vec3 ab = b - a, ac = c - a;
+  const Vec3 n = ab.cross(ac);
+  const double n2 = n.squaredNorm();
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  // The rule of has_no_area, squared; where that underflows, the edges are all there is, too.
+  has_area = n2 > 4 * kDegenerateArea * kDegenerateArea * longest2 * longest2;
+  gradient_b = ac.cross(n) / n2;
+  gradient_c = n.cross(ab) / n2;
+}
+
 SurfacePoint closest_point_of_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Candidate best = closest(p, a, b, c);
+  const Candidate best = closest(p, PreparedTriangle(a, b, c));
   return {kNone, best.weights, best.point, std::sqrt(best.squared)};
 }
 
 SurfacePoint closest_point_of_triangle(const Vec3& p, std::span<const Vec3> positions,
                                        std::span<const Triangle> triangles, Index triangle) {
   const auto& [a, b, c] = triangles[triangle];
-  const Candidate best = closest(p, positions[a], positions[b], positions[c]);
+  const Candidate best = closest(p, PreparedTriangle(positions[a], positions[b], positions[c]));
   return {triangle, best.weights, best.point, std::sqrt(best.squared)};
 }
 
@@ -117,7 +126,7 @@ class ClosestPointIndex::Builder {
       const Index t = centres_[i].triangle;
       const auto& [a, b, c] = triangles_[t];
       index_.record_of_[t] = static_cast<std::uint32_t>(index_.records_.size());
-      index_.records_.push_back({x_[a], x_[b], x_[c], t});
+      index_.records_.push_back({PreparedTriangle(x_[a], x_[b], x_[c]), t});
       box.extend(x_[a]).extend(x_[b]).extend(x_[c]);
     }
     box.min().array() -= slack_;
@@ -189,7 +198,7 @@ struct ClosestPointIndex::Search {
       kInfinitelyFar;  ///< boxes farther than this hold nothing as near; a little over best.squared
 
   void look_at(const Record& r) {
-    const Candidate found = isorelax::closest(p, r.a, r.b, r.c);
+    const Candidate found = isorelax::closest(p, r.corners);
     if (found.squared < best.squared || (found.squared == best.squared && r.triangle < triangle)) {
       best = found;
       triangle = r.triangle;
@@ -208,6 +217,11 @@ struct ClosestPointIndex::Search {
     return sum;
   }
 };
+
+SurfacePoint ClosestPointIndex::closest_of(Index triangle, const Vec3& point) const {
+  const Candidate best = isorelax::closest(point, records_[record_of_[triangle]].corners);
+  return {triangle, best.weights, best.point, std::sqrt(best.squared)};
+}
 
 SurfacePoint ClosestPointIndex::closest(const Vec3& point, Index hint) const {
   Search search{point, {}, kNone, kInfinitelyFar};

@@ -62,7 +62,7 @@ class FrozenSurface {
   }
   /// The closest point of one of them.
   [[nodiscard]] SurfacePoint closest_of(Index triangle, const Vec3& point) const {
-    return closest_point_of_triangle(point, x_, triangles_, triangle);
+    return flat_.closest_of(triangle, point);
   }
 
  private:

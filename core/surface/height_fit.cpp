@@ -1,9 +1,10 @@
 #include "surface/height_fit.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "mesh/lanes.h"
 
 namespace isorelax {
 namespace {
@@ -14,8 +15,8 @@ constexpr int term_count(int degree) {
 }
 
 /// u, v, u^2, u v, v^2, u^3, ...: a lower degree is a leading part.
-template <typename Row>
-void fill_terms(double u, double v, int degree, Row&& row) {
+template <typename Terms>
+void fill_terms(double u, double v, int degree, Terms& row) {
   row[0] = u;
   row[1] = v;
   int from = 0;
@@ -28,35 +29,62 @@ void fill_terms(double u, double v, int degree, Row&& row) {
 }
 
 constexpr int kMaxTerms = term_count(HeightFit::kMaxDegree);
-constexpr int kMaxRows = HeightFit::kMaxSamples;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kMaxTerms>;
-using Heights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
-using Terms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1>;
+/// The rows of a least-squares system: the terms, then the height.
+constexpr int kWidth = kMaxTerms + 2;
+constexpr int kHeight = kWidth - 1;
+using Row = std::array<double, kWidth>;
 
-/// Least squares a * coefficients = b of the highest degree that `a` determines; destroys a and b. Returns
-/// that degree, or 0 where it is under 2.
-int solve(Matrix& a, Heights& b, int degree, double independence, std::span<double> coefficients) {
-  Terms scale = a.colwise().norm();
-  for (Eigen::Index k = 0; k < scale.size(); ++k) {
-    scale[k] = scale[k] > 0 ? 1 / scale[k] : 0;
-    a.col(k) *= scale[k];
+/// Modified Gram-Schmidt, which is as sound as Householder's QR where the right-hand side takes part. Leaves
+/// the rows of R with what belongs to them of Q^T b. A column that is zero gets a row of zeros.
+ISORELAX_VECTOR_CLONES
+void orthogonalise(std::span<Row> rows, int terms, std::array<Row, kMaxTerms>& r) {
+  for (int k = 0; k < terms; ++k) {
+    double norm2 = 0;
+    for (const Row& row : rows) norm2 += row[k] * row[k];
+    const double norm = std::sqrt(norm2);
+    const double scale = norm > 0 ? 1 / norm : 0;
+    Row along{};
+    for (const Row& row : rows) {
+      const double q = scale * row[k];
+      for (int j = 0; j < kWidth; ++j) along[j] += q * row[j];
+    }
+    for (Row& row : rows) {
+      const double q = scale * row[k];
+      for (int j = 0; j < kWidth; ++j) row[j] -= q * along[j];
+    }
+    r[k] = along;
+    r[k][k] = norm;
   }
-  const Eigen::HouseholderQR<Eigen::Ref<Matrix>> qr(a);
-  const auto& r = qr.matrixQR();
-  // |R_kk| is the part of a unit column that the columns before it do not explain.
+}
+
+/// Least squares of the highest degree that the rows determine; destroys them. Returns that degree, or 0
+/// where it is under 2.
+int solve(std::span<Row> rows, int degree, double independence, std::span<double> coefficients) {
+  Row squares{};
+  for (const Row& row : rows)
+    for (int k = 0; k < kMaxTerms; ++k) squares[k] += row[k] * row[k];
+  std::array<Row, kMaxTerms> r;
+  orthogonalise(rows, term_count(degree), r);
+  // R_kk is the part of a column that the columns before it do not explain.
   const auto determined = [&](int d) {
     for (int k = 0; k < term_count(d); ++k)
-      if (!(std::abs(r(k, k)) >= independence)) return false;
+      if (!(r[k][k] > independence * std::sqrt(squares[k]))) return false;
     return true;
   };
   while (degree > 1 && !determined(degree)) --degree;
   if (degree < 2) return 0;
-  const int terms = term_count(degree);
-  b.applyOnTheLeft(qr.householderQ().adjoint());
-  Terms solution = b.head(terms);
-  r.topLeftCorner(terms, terms).triangularView<Eigen::Upper>().solveInPlace(solution);
-  for (int k = 0; k < terms; ++k) coefficients[k] = solution[k] * scale[k];
+  for (int k = term_count(degree) - 1; k >= 0; --k) {
+    double rest = r[k][kHeight];
+    for (int j = k + 1; j < term_count(degree); ++j) rest -= r[k][j] * coefficients[j];
+    coefficients[k] = rest / r[k][k];
+  }
   return degree;
+}
+
+/// The power degree / 4 of a number, for degrees 2 to 4.
+double quarter_power(double x, int degree) {
+  if (degree == 4) return x;
+  return degree == 2 ? std::sqrt(x) : std::sqrt(x * std::sqrt(x));
 }
 
 /// First tangent of a frame that turns with the samples, so that the fit does not depend on how the surface
@@ -99,54 +127,46 @@ HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<cons
   t2_ *= scale;
 
   int degree = std::min(options.degree, kMaxDegree);
-  const auto rows = static_cast<Eigen::Index>(samples.size());
   const auto enough = [&](int d) {
-    return static_cast<double>(rows) >= options.samples_per_unknown * term_count(d);
+    return static_cast<double>(samples.size()) >= options.samples_per_unknown * term_count(d);
   };
   while (degree > 1 && !enough(degree)) --degree;
   if (degree < 2) return;
 
-  Matrix a(rows, term_count(degree));
-  Heights heights(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
+  std::array<Row, kMaxSamples> rows{};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vec3 d = samples[i].point - origin;
     const double facing = std::max(0.0, samples[i].normal.dot(normal_));
-    const double weight = facing / std::pow(d.squaredNorm() / mean2 + 0.01, 0.25 * degree);
-    fill_terms(d.dot(t1_), d.dot(t2_), degree, a.row(i));
-    a.row(i) *= weight;
-    heights[i] = weight * d.dot(normal_);
+    const double weight = facing / quarter_power(d.squaredNorm() / mean2 + 0.01, degree);
+    fill_terms(d.dot(t1_), d.dot(t2_), degree, rows[i]);
+    rows[i][kHeight] = d.dot(normal_);
+    for (double& x : rows[i]) x *= weight;
   }
-  degree_ = solve(a, heights, degree, options.independence, coefficients_);
+  degree_ = solve(std::span(rows).first(samples.size()), degree, options.independence, coefficients_);
 }
 
+// Coefficients above the degree are zero.
 Vec3 HeightFit::lift(const Vec3& point) const {
   if (degree_ == 0) return point;
   const Vec3 d = point - origin_;
-  const double height = d.dot(normal_);
-  std::array<double, kMaxTerms> terms;
-  fill_terms(d.dot(t1_), d.dot(t2_), degree_, terms);
-  double f = 0;
-  for (int k = 0; k < term_count(degree_); ++k) f += coefficients_[k] * terms[k];
-  return point + (f - height) * normal_;
+  const double u = d.dot(t1_), v = d.dot(t2_);
+  const auto& c = coefficients_;
+  const double of_u = u * (c[0] + u * (c[2] + u * (c[5] + u * c[9])));
+  const double by_v = c[1] + u * (c[3] + u * (c[6] + u * c[10]));
+  const double by_v2 = c[4] + u * (c[7] + u * c[11]);
+  const double f = of_u + v * (by_v + v * (by_v2 + v * (c[8] + u * c[12] + v * c[13])));
+  return point + (f - d.dot(normal_)) * normal_;
 }
 
 Vec3 HeightFit::normal(const Vec3& point) const {
   if (degree_ == 0) return normal_;
   const Vec3 d = point - origin_;
   const double u = d.dot(t1_), v = d.dot(t2_);
-  // The terms of degree d - 1 are those that the terms of degree d have as derivatives.
-  std::array<double, kMaxTerms> terms;
-  fill_terms(u, v, degree_, terms);
-  double fu = coefficients_[0], fv = coefficients_[1];
-  int lower = 0;
-  for (int degree = 2, at = 2; degree <= degree_; ++degree) {
-    for (int i = 0; i < degree; ++i) {
-      fu += coefficients_[at + i] * (degree - i) * terms[lower + i];
-      fv += coefficients_[at + i + 1] * (i + 1) * terms[lower + i];
-    }
-    lower = at;
-    at += degree + 1;
-  }
+  const auto& c = coefficients_;
+  const double fu = c[0] + u * (2 * c[2] + u * (3 * c[5] + u * 4 * c[9])) +
+                    v * (c[3] + u * (2 * c[6] + u * 3 * c[10]) + v * (c[7] + u * 2 * c[11] + v * c[12]));
+  const double fv = c[1] + u * (c[3] + u * (c[6] + u * c[10])) +
+                    v * (2 * (c[4] + u * (c[7] + u * c[11])) + v * (3 * (c[8] + u * c[12]) + v * 4 * c[13]));
   return normal_ - fu * t1_ - fv * t2_;
 }
 

@@ -137,7 +137,7 @@ class Measurement {
   void sample_under(std::span<const FarPoint> vertices) {
     for (const FarPoint& vertex : vertices) {
       if (vertex.nearest == kNone || vertex.distance <= more_than(result_.farthest.distance)) continue;
-      const SurfacePoint under = closest_point_of_triangle(vertex.point, x_, triangles_, vertex.nearest);
+      const SurfacePoint under = from_.index.closest_of(vertex.nearest, vertex.point);
       note(vertex.nearest, sample(under.point, kNone));
     }
   }
@@ -146,7 +146,7 @@ class Measurement {
 
   [[nodiscard]] double distance(const FarPoint& from, Index triangle) const {
     if (from.nearest == triangle) return from.distance;
-    return closest_point_of_triangle(from.point, to_.positions, to_.triangles, triangle).distance;
+    return to_.index.closest_of(triangle, from.point).distance;
   }
   [[nodiscard]] static double more_than(double largest) { return (1 + kTolerance) * largest; }
 
