@@ -175,7 +175,8 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     const bool cancelled = result.run.stopped == StopReason::cancelled;
     const std::size_t at_limit = result.limits[kSurfaceBit] - holds.still.size();
     if (limit < widest && at_limit > 0 && !cancelled && !trying &&
-        wider_limit_pays(hold_within(widest), attempts.make_smoother, positions)) {
+        wider_limit_pays(hold_within(widest), attempts.make_smoother, positions,
+                         attempts.run_options.iterations)) {
       limit = widest;
       continue;
     }
@@ -235,9 +236,9 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& 
   const std::vector<Vec3> input(positions.begin(), positions.end());
   UntangleResult untangled = untangle_input(positions, triangles, problem_options);
   std::vector<std::string> notes = note_of(untangled);
-  const Topology topology(triangles, static_cast<Index>(positions.size()));
+  const auto topology = [&] { return Topology(triangles, static_cast<Index>(positions.size())); };
   const auto deviation = [&] {
-    return measure_deviation(input, positions, triangles, topology, problem_options.threads);
+    return measure_deviation(input, positions, triangles, topology(), problem_options.threads);
   };
   if (!untangled.moved.empty() && limit.max && deviation().max > *limit.max) {
     std::copy(input.begin(), input.end(), positions.begin());
@@ -249,7 +250,7 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& 
   BoundedResult result =
       run_with_some_exponent(positions, limit.max ? input : start, problem_options, attempts);
   // Triangles upside down in a plane cover what the sound ones cover as well.
-  if (moved && !plane_normal(input, triangles, topology, problem_options.threads))
+  if (moved && !plane_normal(input, triangles, topology(), problem_options.threads))
     result.deviation = deviation();
   result.untangled = std::move(untangled);
   result.notes.insert(result.notes.begin(), notes.begin(), notes.end());

@@ -44,7 +44,7 @@ double mean_chord(std::span<const Vec3> positions, const SmoothingProblem& probl
 
 AutomaticLimits automatic_limits(std::span<const Vec3> positions, const SmoothingProblem& problem,
                                  const ProblemOptions& options) {
-  const double chord = mean_chord(positions, problem, options);
+  const double chord = problem.plane_normal ? 0 : mean_chord(positions, problem, options);
   const bool free_border = options.boundary == BoundaryRule::free;
   const double border = free_border ? problem.mean_edge_length / bounding_diagonal(positions) : 0;
   const double widest = std::max({kFine, std::min(kMedium, 1.2 * chord), 0.5 * chord, border});
@@ -55,9 +55,9 @@ AutomaticLimits automatic_limits(std::span<const Vec3> positions, const Smoothin
 }
 
 bool wider_limit_pays(const SmoothingProblem& wider, const SmootherFactory& make_smoother,
-                      std::span<const Vec3> positions) {
+                      std::span<const Vec3> positions, unsigned iterations) {
   std::vector<Vec3> there(positions.begin(), positions.end());
-  run(*make_smoother(wider), wider, there, {.iterations = kTrialSteps, .tolerance = 0});
+  run(*make_smoother(wider), wider, there, {.iterations = std::min(kTrialSteps, iterations), .tolerance = 0});
   const auto measure = [&](std::span<const Vec3> x) {
     return measure_quality(x, wider.triangles, wider.topology, wider.threads);
   };

@@ -22,10 +22,10 @@ struct AutomaticLimits {
                                                const SmoothingProblem& problem,
                                                const ProblemOptions& options);
 
-/// Whether a run that ended at `positions` should be done under a wider limit: whether a few steps from there
-/// with the wider problem make a much better mesh, by a degree of the smallest angle, two of the largest, or
-/// half of one in the mean of the triangles' smallest.
+/// Whether a run of at most so many steps that ended at `positions` should be done under a wider limit:
+/// whether a few from there with the wider problem, no more than that, make a much better mesh, by a degree
+/// of the smallest angle, two of the largest, or half of one in the mean of the triangles' smallest.
 [[nodiscard]] bool wider_limit_pays(const SmoothingProblem& wider, const SmootherFactory& make_smoother,
-                                    std::span<const Vec3> positions);
+                                    std::span<const Vec3> positions, unsigned iterations);
 
 }  // namespace isorelax

@@ -356,8 +356,10 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
   for (Index v = 0; v < problem.vertex_count() && !can_leave; ++v)
     can_leave = problem.topology.is_boundary(v) && problem.mobility[v] != Mobility::none;
   if (std::isfinite(holds.distance) && can_leave) {
-    problem.near.emplace(holds.distance, std::vector<Vec3>(positions.begin(), positions.end()),
-                         problem.triangles);
+    problem.near = {holds.distance,
+                    {positions.begin(), positions.end()},
+                    problem.surface ? problem.surface->flat()
+                                    : std::make_shared<ClosestPointIndex>(positions, problem.triangles)};
   }
   if (!holds.still.empty()) {
     problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +

@@ -97,14 +97,9 @@ enum class Mobility : std::uint8_t { none, line, plane };
 
 /// The surface as it was, that the mesh has to stay near.
 struct NearSurface {
-  NearSurface(double limit, std::vector<Vec3> x, std::span<const Triangle> triangles)
-      : distance(limit),
-        positions(std::move(x)),
-        surface(std::make_shared<ClosestPointIndex>(positions, triangles)) {}
-
   double distance;                                   ///< length units
   std::vector<Vec3> positions;                       ///< as they were
-  std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles
+  std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles; numbered as those of a frozen surface
 };
 
 /// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.

@@ -69,7 +69,9 @@ class Renumberer {
 
   [[nodiscard]] std::optional<NearSurface> moved_near(std::span<const Triangle> moved) const {
     if (!p_.near) return {};
-    return NearSurface(p_.near->distance, in_order(vertices(), p_.near->positions), moved);
+    std::vector<Vec3> positions = in_order(vertices(), p_.near->positions);
+    auto surface = p_.surface ? p_.near->surface : std::make_shared<ClosestPointIndex>(positions, moved);
+    return NearSurface{p_.near->distance, std::move(positions), std::move(surface)};
   }
 
   const SmoothingProblem& p_;

@@ -18,20 +18,17 @@ constexpr double kLeastGain = 0.002;
 class AutomaticSmoother : public Smoother {
  public:
   AutomaticSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : problem_(problem),
-        detail_(detail),
-        newton_(make_smoother(problem, Solver::newton, detail)),
-        lbfgs_(make_smoother(problem, Solver::lbfgs, detail)) {}
+      : problem_(problem), detail_(detail) {}
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     // Elsewhere than the last step led, everything starts anew.
     if (!std::ranges::equal(positions, led_to_)) begin();
     if (phase_ == Phase::even) even_out_->step(positions, record);
-    if (phase_ == Phase::lbfgs) lbfgs_->step(positions, record);
+    if (phase_ == Phase::lbfgs) once_made(lbfgs_, Solver::lbfgs).step(positions, record);
     // A direction for all may lead nowhere where many vertices are held back; one for each alone may still
     // do.
     if (phase_ != Phase::newton && record.moved == 0) phase_ = Phase::newton;
-    if (phase_ == Phase::newton) newton_->step(positions, record);
+    if (phase_ == Phase::newton) once_made(newton_, Solver::newton).step(positions, record);
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
     choose_next(record);
@@ -43,6 +40,11 @@ class AutomaticSmoother : public Smoother {
   void begin() {
     phase_ = wants_even(problem_) ? Phase::even : Phase::newton;
     if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
+  }
+
+  Smoother& once_made(std::unique_ptr<Smoother>& smoother, Solver solver) const {
+    if (!smoother) smoother = make_smoother(problem_, solver, detail_);
+    return *smoother;
   }
 
   void choose_next(const StepRecord& record) {

@@ -80,9 +80,7 @@ SurfacePoint SurfaceLimit::closest_of(const View& view, Index triangle, const Ve
 /// that is looked for: in the index of the surface as it was, or farther about.
 SurfacePoint SurfaceLimit::nearest(const View& view, const Vec3& point, Index triangle) const {
   const Topology& topology = problem_.topology;
-  const auto foot = [&](Index t) {
-    return closest_of(view, t, point);
-  };
+  const auto foot = [&](Index t) { return closest_of(view, t, point); };
   const auto about = [&](Corner c) { return topology.corners_of(problem_.triangles[c / 3][c % 3]); };
   const auto walk_from = [&](const SurfacePoint& start) {
     return walk_nearer(

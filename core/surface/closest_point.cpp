@@ -113,20 +113,20 @@ class ClosestPointIndex::Builder {
     index_.record_of_.resize(triangles_.size());
     index_.nodes_.reserve(triangles_.size() / 2);
     if (triangles_.size() > kLeafSize) {
-      split(0, centres_.size());
+      split(0, centres_.size(), 0);
     } else {
-      leaf(0, centres_.size());
+      leaf(0, centres_.size(), 0);
     }
   }
 
  private:
-  Eigen::AlignedBox3d leaf(std::size_t begin, std::size_t end) {
+  Eigen::AlignedBox3d leaf(std::size_t begin, std::size_t end, std::uint32_t parent) {
     Eigen::AlignedBox3d box;
     for (std::size_t i = begin; i < end; ++i) {
       const Index t = centres_[i].triangle;
       const auto& [a, b, c] = triangles_[t];
       index_.record_of_[t] = static_cast<std::uint32_t>(index_.records_.size());
-      index_.records_.push_back({PreparedTriangle(x_[a], x_[b], x_[c]), t});
+      index_.records_.push_back({PreparedTriangle(x_[a], x_[b], x_[c]), t, parent});
       box.extend(x_[a]).extend(x_[b]).extend(x_[c]);
     }
     box.min().array() -= slack_;
@@ -135,9 +135,10 @@ class ClosestPointIndex::Builder {
   }
 
   /// Makes the node of centres [begin, end), all below it, and returns its box.
-  Eigen::AlignedBox3d split(std::size_t begin, std::size_t end) {
-    const std::size_t node = index_.nodes_.size();
+  Eigen::AlignedBox3d split(std::size_t begin, std::size_t end, std::uint32_t parent) {
+    const auto node = static_cast<std::uint32_t>(index_.nodes_.size());
     index_.nodes_.emplace_back();
+    index_.nodes_[node].parent = parent;
     const std::size_t middle = (begin + end) / 2;
     const unsigned axis = widest_axis(begin, end);
     const auto first = centres_.begin();
@@ -151,7 +152,7 @@ class ClosestPointIndex::Builder {
       const bool is_leaf = count <= kLeafSize;
       const std::size_t child = is_leaf ? index_.records_.size() : index_.nodes_.size();
       const Eigen::AlignedBox3d box =
-          is_leaf ? leaf(cuts[side], cuts[side + 1]) : split(cuts[side], cuts[side + 1]);
+          is_leaf ? leaf(cuts[side], cuts[side + 1], node) : split(cuts[side], cuts[side + 1], node);
       Node& n = index_.nodes_[node];
       n.child[side] = static_cast<std::uint32_t>(child);
       n.count[side] = is_leaf ? static_cast<std::uint32_t>(count) : 0;
@@ -191,6 +192,13 @@ ClosestPointIndex::ClosestPointIndex(std::span<const Vec3> positions, std::span<
 
 /// The smallest (distance, triangle) of what was looked at so far.
 struct ClosestPointIndex::Search {
+  /// A child whose box is so far away.
+  struct Waiting {
+    double squared;
+    std::uint32_t child, count;
+  };
+
+  const ClosestPointIndex& index;
   Vec3 p;
   Candidate best;
   Index triangle = kNone;
@@ -216,6 +224,38 @@ struct ClosestPointIndex::Search {
     }
     return sum;
   }
+
+  /// Looks at all that may be nearer in one child.
+  void descend(const Waiting& from) {
+    std::array<Waiting, kMaxDepth> stack;
+    std::size_t depth = 0;
+    stack[depth++] = from;
+    while (depth > 0) {
+      const Waiting at = stack[--depth];
+      if (at.squared > bound) continue;
+      if (at.count > 0) {
+        for (std::uint32_t i = at.child; i < at.child + at.count; ++i) look_at(index.records_[i]);
+        continue;
+      }
+      const Node& node = index.nodes_[at.child];
+      const Eigen::Array2d d = squared_distances(node);
+      const unsigned nearer = d[1] < d[0] ? 1 : 0;
+      for (const unsigned side : {1 - nearer, nearer})
+        if (d[side] <= bound) stack[depth++] = {d[side], node.child[side], node.count[side]};
+    }
+  }
+
+  /// The same for everything, from a triangle known to be near outwards.
+  void climb_from(const Record& near) {
+    look_at(near);
+    descend({0, near.node, 0});
+    for (std::uint32_t at = near.node; at != 0; at = index.nodes_[at].parent) {
+      const Node& parent = index.nodes_[index.nodes_[at].parent];
+      const unsigned other = parent.count[0] == 0 && parent.child[0] == at ? 1 : 0;
+      const double squared = squared_distances(parent)[other];
+      if (squared <= bound) descend({squared, parent.child[other], parent.count[other]});
+    }
+  }
 };
 
 SurfacePoint ClosestPointIndex::closest_of(Index triangle, const Vec3& point) const {
@@ -224,30 +264,13 @@ SurfacePoint ClosestPointIndex::closest_of(Index triangle, const Vec3& point) co
 }
 
 SurfacePoint ClosestPointIndex::closest(const Vec3& point, Index hint) const {
-  Search search{point, {}, kNone, kInfinitelyFar};
-  if (hint < record_of_.size()) search.look_at(records_[record_of_[hint]]);
-  if (nodes_.empty())
+  Search search{*this, point, {}, kNone, kInfinitelyFar};
+  if (nodes_.empty()) {
     for (const Record& r : records_) search.look_at(r);
-
-  struct Waiting {
-    double squared;
-    std::uint32_t child, count;
-  };
-  std::array<Waiting, kMaxDepth> stack;
-  std::size_t depth = 0;
-  if (!nodes_.empty()) stack[depth++] = {0, 0, 0};
-  while (depth > 0) {
-    const Waiting at = stack[--depth];
-    if (at.squared > search.bound) continue;
-    if (at.count > 0) {
-      for (std::uint32_t i = at.child; i < at.child + at.count; ++i) search.look_at(records_[i]);
-      continue;
-    }
-    const Node& node = nodes_[at.child];
-    const Eigen::Array2d d = search.squared_distances(node);
-    const unsigned nearer = d[1] < d[0] ? 1 : 0;
-    for (const unsigned side : {1 - nearer, nearer})
-      if (d[side] <= search.bound) stack[depth++] = {d[side], node.child[side], node.count[side]};
+  } else if (hint < record_of_.size()) {
+    search.climb_from(records_[record_of_[hint]]);
+  } else {
+    search.descend({0, 0, 0});
   }
   if (!(search.best.squared < kInfinitelyFar)) return {kNone, Vec3::Zero(), Vec3::Zero(), kInfinitelyFar};
   return {search.triangle, search.best.weights, search.best.point, std::sqrt(search.best.squared)};

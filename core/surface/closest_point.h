@@ -65,10 +65,12 @@ class ClosestPointIndex {
     Eigen::Array<double, 3, 2, Eigen::RowMajor> low, high;
     std::array<std::uint32_t, 2> child;
     std::array<std::uint32_t, 2> count;
+    std::uint32_t parent;  ///< its own number at the root
   };
   struct Record {
     PreparedTriangle corners;
     Index triangle;
+    std::uint32_t node;  ///< that has the leaf for a child; unused where there is none
   };
   /// What the build sorts: a triangle's centre in units of the whole, where single precision is enough.
   struct Centre {

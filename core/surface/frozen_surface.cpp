@@ -35,7 +35,7 @@ FrozenSurface::FrozenSurface(std::span<const Vec3> positions, std::span<const Tr
                              const Topology& topology, const VertexClasses& classes, unsigned threads)
     : x_(positions.begin(), positions.end()),
       triangles_(triangles.begin(), triangles.end()),
-      flat_(positions, triangles) {
+      flat_(std::make_shared<ClosestPointIndex>(positions, triangles)) {
   Eigen::AlignedBox3d box;
   for (const Vec3& x : x_) box.extend(x);
   if (!x_.empty()) resolution2_ = 1e-26 * box.diagonal().squaredNorm();

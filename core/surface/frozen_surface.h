@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -58,12 +59,14 @@ class FrozenSurface {
   /// The closest point of the original triangles themselves, anywhere: what a largest deviation is counted
   /// from. `hint` makes it cheaper, see ClosestPointIndex.
   [[nodiscard]] SurfacePoint closest(const Vec3& point, Index hint = kNone) const {
-    return flat_.closest(point, hint);
+    return flat_->closest(point, hint);
   }
   /// The closest point of one of them.
   [[nodiscard]] SurfacePoint closest_of(Index triangle, const Vec3& point) const {
-    return flat_.closest_of(triangle, point);
+    return flat_->closest_of(triangle, point);
   }
+  /// The original triangles.
+  [[nodiscard]] const std::shared_ptr<const ClosestPointIndex>& flat() const { return flat_; }
 
  private:
   /// A point of a triangle with its lifted one.
@@ -87,7 +90,7 @@ class FrozenSurface {
 
   std::vector<Vec3> x_;
   std::vector<Triangle> triangles_;
-  ClosestPointIndex flat_;
+  std::shared_ptr<const ClosestPointIndex> flat_;
   EdgeWalls walls_;               ///< creases and borders
   std::vector<Corner> opposite_;  ///< across edges that are no walls
   Sectors faces_;                 ///< about each vertex, between walls

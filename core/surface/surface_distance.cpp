@@ -8,6 +8,7 @@
 
 #include "mesh/parallel.h"
 #include "surface/line_bound.h"
+#include "surface/walk.h"
 
 namespace isorelax {
 namespace {
@@ -57,8 +58,13 @@ class Measurement {
     unsigned halvings;
   };
 
+  /// A walk from the hint mostly ends at the closest point, which leaves little to search.
   [[nodiscard]] FarPoint sample(const Vec3& point, Index hint) const {
-    const SurfacePoint found = to_.index.closest(point, hint);
+    const SurfacePoint near = walk_nearer(
+        to_.index.closest_of(hint, point), [&](Index t) { return to_.index.closest_of(t, point); },
+        [&](Corner c) { return to_.topology.opposite(c); },
+        [&](Corner c) { return to_.topology.corners_of(to_.triangles[c / 3][c % 3]); });
+    const SurfacePoint found = to_.index.closest(point, near.triangle);
     return {found.distance, point, found.triangle};
   }
 
@@ -138,7 +144,7 @@ class Measurement {
     for (const FarPoint& vertex : vertices) {
       if (vertex.nearest == kNone || vertex.distance <= more_than(result_.farthest.distance)) continue;
       const SurfacePoint under = from_.index.closest_of(vertex.nearest, vertex.point);
-      note(vertex.nearest, sample(under.point, kNone));
+      note(vertex.nearest, sample(under.point, vertex.nearest));
     }
   }
 

@@ -59,13 +59,20 @@ class Stopwatch {
   double paused_ = 0;
 };
 
-Result timed(const std::string& name, const std::function<void()>& smooth,
-             const std::function<std::vector<Vec3>()>& positions) {
+/// Times a peer from the mesh as it was read to its last step, as ours are.
+template <typename Mesh>
+Result timed(const std::string& name, const std::function<Mesh()>& make,
+             const std::function<void(Mesh&)>& smooth) {
   Result result{.name = name, .positions = {}, .seconds = 0, .failure = {}};
-  const Stopwatch watch;
-  smooth();
-  result.seconds = watch.seconds();
-  result.positions = positions();
+  try {
+    const Stopwatch watch;
+    Mesh mesh = make();
+    smooth(mesh);
+    result.seconds = watch.seconds();
+    result.positions = mesh.positions();
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
   return result;
 }
 
@@ -80,23 +87,20 @@ std::vector<std::uint8_t> held_vertices(const TriangleMesh& mesh, const Topology
 
 Result cgal(const std::string& name, const TriangleMesh& mesh, std::span<const std::uint8_t> held,
             void (CgalMesh::*smooth)(unsigned), unsigned iterations) {
-  try {
-    CgalMesh copy(mesh, held);
-    return timed(
-        name, [&] { (copy.*smooth)(iterations); }, [&] { return copy.positions(); });
-  } catch (const std::exception& error) {
-    return {.name = name, .positions = {}, .seconds = 0, .failure = error.what()};
-  }
+  return timed<CgalMesh>(
+      name, [&] { return CgalMesh(mesh, held); }, [&](CgalMesh& copy) { (copy.*smooth)(iterations); });
 }
 
 Result openmesh(const TriangleMesh& mesh, std::span<const std::uint8_t> held) {
-  HalfedgeMesh copy(mesh);
-  copy.hold(held);
-  const std::string name = "OpenMesh tangential Laplace, " + std::to_string(kPeerIterations);
-  if (!copy.rejected_triangles().empty())
-    return {.name = name, .positions = {}, .seconds = 0, .failure = "OpenMesh does not take this mesh"};
-  return timed(
-      name, [&] { copy.smooth_laplace(kPeerIterations); }, [&] { return copy.positions(); });
+  return timed<HalfedgeMesh>(
+      "OpenMesh tangential Laplace, " + std::to_string(kPeerIterations),
+      [&] {
+        HalfedgeMesh copy(mesh);
+        if (!copy.rejected_triangles().empty()) throw MeshError("OpenMesh does not take this mesh");
+        copy.hold(held);
+        return copy;
+      },
+      [](HalfedgeMesh& copy) { copy.smooth_laplace(kPeerIterations); });
 }
 
 Result ours(const std::string& name, const TriangleMesh& mesh, const Topology& topology,
