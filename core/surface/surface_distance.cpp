@@ -58,14 +58,20 @@ class Measurement {
     unsigned halvings;
   };
 
-  /// A walk from the hint mostly ends at the closest point, which leaves little to search.
+  /// A walk from the hint, where the other surface has that triangle, mostly ends at the closest point: that
+  /// leaves little to search.
   [[nodiscard]] FarPoint sample(const Vec3& point, Index hint) const {
-    const SurfacePoint near = walk_nearer(
-        to_.index.closest_of(hint, point), [&](Index t) { return to_.index.closest_of(t, point); },
-        [&](Corner c) { return to_.topology.opposite(c); },
-        [&](Corner c) { return to_.topology.corners_of(to_.triangles[c / 3][c % 3]); });
-    const SurfacePoint found = to_.index.closest(point, near.triangle);
+    if (hint < to_.triangles.size()) hint = walk(point, hint);
+    const SurfacePoint found = to_.index.closest(point, hint);
     return {found.distance, point, found.triangle};
+  }
+
+  [[nodiscard]] Index walk(const Vec3& point, Index from) const {
+    const auto foot = [&](Index t) { return to_.index.closest_of(t, point); };
+    return walk_nearer(
+               foot(from), foot, [&](Corner c) { return to_.topology.opposite(c); },
+               [&](Corner c) { return to_.topology.corners_of(to_.triangles[c / 3][c % 3]); })
+        .triangle;
   }
 
   void note(Index t, const FarPoint& point) {

@@ -67,11 +67,10 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
 
 TEST(BoundedRun, WhereADirectionForAllLeadsNowhereEachVertexGoesItsOwnWay) {
   TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 3, .triangles = 800});
-  const BoundedResult result = run_bounded(
-      mesh.positions, mesh.triangles, {.exponent = 2},
-      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, {0.002});
-  // L-BFGS stalls after 9 steps at 40.77.
-  EXPECT_NE(result.run.stopped, StopReason::stalled);
+  run_bounded(mesh.positions, mesh.triangles, {.exponent = 2},
+              [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {},
+              {0.002});
+  // L-BFGS alone stalls before that.
   EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, 40.9);
 }
 
