@@ -1,6 +1,7 @@
 #include "smoothing/polish_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/parallel.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kPolishReach = 0.2;
 /// Times that a move is halved before a vertex stays where it is.
 constexpr unsigned kPolishHalvings = 5;
+constexpr unsigned kTurnedHalvings = 2;
+/// Turns of a move that is held back, in the order in which they are tried; radians.
+constexpr std::array kTurns = {0.7, -0.7, 1.3, -1.3};
 
 std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
   std::vector<std::uint8_t> flags = problem.treated;
@@ -77,11 +81,25 @@ AngleRing& PolishState::look_at(Index vertex) {
 std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const AngleRing::Soft& soft,
                                        const std::function<double(const Vec3&)>& value,
                                        std::span<const AngleRange> bounds) {
-  Vec3 d = uphill(vertex, at, soft);
+  const Vec3 d = uphill(vertex, at, soft);
   if (d.isZero(0)) return std::nullopt;
-  for (unsigned k = 0; k <= kPolishHalvings; ++k, d *= 0.5) {
-    const Vec3 there = bring_back(problem_, vertex, at + d);
-    if (ring_.is_upright(there) && value(there) > soft.value && may_go(vertex, there, bounds)) return there;
+  bool held_back = false;
+  const auto along = [&](const Vec3& direction, unsigned halvings) -> std::optional<Vec3> {
+    Vec3 move = direction;
+    for (unsigned k = 0; k <= halvings; ++k, move *= 0.5) {
+      const Vec3 there = bring_back(problem_, vertex, at + move);
+      if (!(value(there) > soft.value)) continue;
+      if (ring_.is_upright(there) && may_go(vertex, there, bounds)) return there;
+      held_back = true;
+    }
+    return std::nullopt;
+  };
+  if (const auto there = along(d, kPolishHalvings)) return there;
+  // What holds a vertex back leads along itself.
+  if (!held_back || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
+  const Vec3 side = tangent_axis(problem_, x_, vertex).cross(d);
+  for (const double turn : kTurns) {
+    if (const auto there = along(std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
   }
   return std::nullopt;
 }
