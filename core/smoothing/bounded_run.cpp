@@ -138,6 +138,26 @@ BoundedResult attempt(const SmoothingProblem& problem, const SurfaceHolds& holds
   return result;
 }
 
+/// The last stage, from positions that are sound. Where it leads too far or folds something, it holds more
+/// and is done again.
+SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> positions,
+                                     std::span<const Vec3> original, const SmoothingProblem& unheld,
+                                     SurfaceHolds holds, const SurfaceWatch& watch, double limit,
+                                     const Attempts& attempts) {
+  const std::vector<Vec3> smoothed(positions.begin(), positions.end());
+  for (double share = 1;; std::copy(smoothed.begin(), smoothed.end(), positions.begin())) {
+    holds.distance = share * watch.largest_distance(limit);
+    SmoothingProblem problem = unheld;
+    hold(problem, holds, original);
+    announce(attempts, {result.run.iterations, problem.exponent, true, holds}, positions);
+    result.polish =
+        run_polish(problem, positions, *attempts.polish, result.run.iterations, attempts.observer);
+    const SurfaceWatch::Finding found = watch.look(positions, limit);
+    if (found.sound()) return found;
+    watch.hold_more(holds, share, found, limit);
+  }
+}
+
 /// The limits that may hold. High exponents are reached in stages of their own.
 AutomaticLimits limits_of(std::span<const Vec3> positions, const SmoothingProblem& problem,
                           const ProblemOptions& options, const DeviationLimit& limit) {
@@ -155,8 +175,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const SurfaceWatch watch(surface, original, unheld);
   auto [limit, widest] = limits_of(original, unheld, options, attempts.limit);
   SurfaceHolds holds = options.holds;
-  double share = 1;                 // of the largest distance
-  std::vector<Index> polish_still;  // what the last stage has to hold, too
+  double share = 1;  // of the largest distance
   const auto hold_within = [&](double deviation) {
     holds.distance = share * watch.largest_distance(deviation);
     SmoothingProblem problem = unheld;
@@ -164,8 +183,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     return problem;
   };
   // The first attempt mostly is the last. Some find that the limit should be wider. After one that went too
-  // far all the same, quick tries find what has to be held. Where only the last stage did, the next attempt
-  // holds more in that alone.
+  // far all the same, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
   for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
@@ -189,23 +207,12 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.deviation_limit = limit;
     const bool sound = found.sound();
     if (attempts.polish && sound && !trying && !cancelled && result.run.stopped != StopReason::fixed) {
-      SurfaceHolds last_holds = holds;
-      last_holds.distance = watch.largest_distance(widest);
-      last_holds.still.insert(last_holds.still.end(), polish_still.begin(), polish_still.end());
-      SmoothingProblem last = unheld;
-      hold(last, last_holds, original);
-      announce(attempts, {result.run.iterations, last.exponent, true, last_holds}, positions);
-      result.polish = run_polish(last, positions, *attempts.polish, result.run.iterations, attempts.observer);
-      found = watch.look(positions, widest);
       result.deviation_limit = widest;
-      if (!found.sound()) {
-        watch.hold_still(polish_still, found);
-        continue;
-      }
+      found = polish_soundly(result, positions, original, unheld, holds, watch, widest, attempts);
     }
     result.deviation = found.deviation;
     if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
-    if (!sound) watch.hold_more(holds, share, found);
+    if (!sound) watch.hold_more(holds, share, found, limit);
     trying = !sound;
   }
 }

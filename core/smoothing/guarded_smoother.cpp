@@ -56,7 +56,7 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   if (detail_ != RecordDetail::vertices) record_triangles(record);
   record.before.gradient_norm = propose(positions, here_, record);
   if (detail_ == RecordDetail::stages) record_stages(positions, record);
-  trial_.start(positions, record);
+  trial_.start(positions, record, leads_to_the_surface());
   if (guard_ != StepGuard::none) fold_.limit(trial_, record);
   record.after = there_.evaluate(trial_.to());
   if (guard_ == StepGuard::folds_and_energy || guard_ == StepGuard::all_or_nothing) guard_energy(record);

@@ -30,6 +30,9 @@ class GuardedSmoother : public Smoother {
   /// Whether a rising energy cuts back all vertices alike from the start, which keeps the direction.
   [[nodiscard]] virtual bool cuts_all_alike() const { return false; }
 
+  /// Whether what is proposed ends on the surface already.
+  [[nodiscard]] virtual bool leads_to_the_surface() const { return false; }
+
   /// Whether the positions of this step are those to which the step before led.
   [[nodiscard]] bool continues() const { return continues_; }
   /// Rounds that the step before took against a rising energy.

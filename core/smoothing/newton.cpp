@@ -1,5 +1,5 @@
+#include "smoothing/energy_ring.h"
 #include "smoothing/guarded_smoother.h"
-#include "smoothing/local_minimum.h"
 #include "smoothing/newton_block.h"
 #include "smoothing/renumbered_smoother.h"
 

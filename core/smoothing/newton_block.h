@@ -19,6 +19,12 @@ struct NewtonBlock {
   /// An empty block over the tangent space of this mobility and axis.
   NewtonBlock(Mobility mobility, const Vec3& axis);
 
+  /// Adds a second derivative in space.
+  void add(const Mat3& curvature) {
+    h11 += t1.dot(curvature * t1);
+    h12 += t1.dot(curvature * t2);
+    h22 += t2.dot(curvature * t2);
+  }
   /// Solves H d = g in the tangent space: g and the result are vectors in space. Zero where the block is.
   [[nodiscard]] Vec3 solve(const Vec3& g) const;
   /// The part of a vector in the tangent space.

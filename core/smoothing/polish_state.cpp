@@ -82,21 +82,20 @@ std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const Angle
                                        const std::function<double(const Vec3&)>& value,
                                        std::span<const AngleRange> bounds) {
   const Vec3 d = uphill(vertex, at, soft);
+  held_back_ = 0;
   if (d.isZero(0)) return std::nullopt;
-  bool held_back = false;
   const auto along = [&](const Vec3& direction, unsigned halvings) -> std::optional<Vec3> {
     Vec3 move = direction;
     for (unsigned k = 0; k <= halvings; ++k, move *= 0.5) {
       const Vec3 there = bring_back(problem_, vertex, at + move);
       if (!(value(there) > soft.value)) continue;
-      if (ring_.is_upright(there) && may_go(vertex, there, bounds)) return there;
-      held_back = true;
+      if (may_go(vertex, there, bounds)) return there;
     }
     return std::nullopt;
   };
   if (const auto there = along(d, kPolishHalvings)) return there;
   // What holds a vertex back leads along itself.
-  if (!held_back || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
+  if (held_back_ == 0 || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
   const Vec3 side = tangent_axis(problem_, x_, vertex).cross(d);
   for (const double turn : kTurns) {
     if (const auto there = along(std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
@@ -112,22 +111,29 @@ Vec3 PolishState::uphill(Index vertex, const Vec3& at, const AngleRing::Soft& so
   if (!(slope > 0)) return Vec3::Zero();
   NewtonBlock block(problem_.mobility[vertex], axis);
   const double damping = slope / (kPolishReach * ring_.shortest_edge(at));
-  block.h11 = damping + block.t1.dot(soft.spread * block.t1);
-  block.h12 = block.t1.dot(soft.spread * block.t2);
-  block.h22 = damping + block.t2.dot(soft.spread * block.t2);
+  block.add(soft.spread);
+  block.h11 += damping;
+  block.h22 += damping;
   return block.solve(g);
 }
 
 bool PolishState::may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
+  if (!ring_.is_upright(there)) {
+    held_back_ |= kLimitFold;
+    return false;
+  }
   const auto ranges = ring_.ranges(there);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const AngleRange& bound = bounds[ring_.triangles()[i]];
-    if (ranges[i].min < bound.min || ranges[i].max > bound.max) return false;
+    if (ranges[i].min >= bound.min && ranges[i].max <= bound.max) continue;
+    held_back_ |= kLimitFold;
+    return false;
   }
   const Vec3 here = x_[vertex];
   x_[vertex] = there;
   const bool near = surface_.keeps(x_, vertex);
   x_[vertex] = here;
+  if (!near) held_back_ |= kLimitSurface;
   return near;
 }
 

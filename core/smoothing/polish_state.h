@@ -39,6 +39,8 @@ class PolishState {
   [[nodiscard]] std::optional<Vec3> climb(Index vertex, const Vec3& at, const AngleRing::Soft& soft,
                                           const std::function<double(const Vec3&)>& value,
                                           std::span<const AngleRange> bounds);
+  /// Bits of Limit that the last climb met with.
+  [[nodiscard]] std::uint16_t held_back() const { return held_back_; }
   /// Moves the looked-at vertex. Returns how far.
   double move(Index vertex, const Vec3& there);
 
@@ -49,6 +51,7 @@ class PolishState {
  private:
   void measure(Index triangle);
   [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
+  /// Without turning a triangle over, and within all bounds.
   [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
 
   const SmoothingProblem& problem_;
@@ -57,6 +60,7 @@ class PolishState {
   std::vector<std::uint8_t> can_change_;
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
+  std::uint16_t held_back_ = 0;
 };
 
 /// One goal of the last stage, sweep by sweep.

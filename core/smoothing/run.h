@@ -69,7 +69,8 @@ std::unique_ptr<Smoother> make_lbfgs(const SmoothingProblem& problem, const Lbfg
 
 /// Which way of stepping.
 enum class Solver : std::uint8_t {
-  automatic,  ///< evening out (make_even_out) and Newton steps while they pay, then L-BFGS to convergence
+  automatic,  ///< evening out (make_even_out) and Newton steps while they pay, then L-BFGS to convergence,
+              ///< with steps of one vertex after another (make_one_by_one) where many are at the limit
   jacobi,     ///< the paper's
   newton,
   lbfgs,

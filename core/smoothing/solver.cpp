@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "smoothing/even_out.h"
+#include "smoothing/one_by_one.h"
 #include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
@@ -15,6 +16,12 @@ constexpr double kBadEnergy = 7;
 constexpr double kWorthwhileGain = 0.01;
 constexpr double kLeastGain = 0.002;
 
+/// Where vertices are at the limit of the distance and steps of L-BFGS gain less than this share, or none is
+/// found, vertices move one by one, as long as that gains the other share; then L-BFGS has so many steps.
+constexpr double kHeldUpGain = 1e-4;
+constexpr double kOneByOneGain = 1e-3;
+constexpr unsigned kStepsForAll = 16;
+
 class AutomaticSmoother : public Smoother {
  public:
   AutomaticSmoother(const SmoothingProblem& problem, RecordDetail detail)
@@ -24,27 +31,36 @@ class AutomaticSmoother : public Smoother {
     // Elsewhere than the last step led, everything starts anew.
     if (!std::ranges::equal(positions, led_to_)) begin();
     if (phase_ == Phase::even) even_out_->step(positions, record);
-    if (phase_ == Phase::lbfgs) once_made(lbfgs_, Solver::lbfgs).step(positions, record);
-    // A direction for all may lead nowhere where many vertices are held back; one for each alone may still
-    // do.
-    if (phase_ != Phase::newton && record.moved == 0) phase_ = Phase::newton;
+    if (phase_ == Phase::even && record.moved == 0) phase_ = Phase::newton;
     if (phase_ == Phase::newton) once_made(newton_, Solver::newton).step(positions, record);
+    if (phase_ == Phase::lbfgs) once_made(lbfgs_, Solver::lbfgs).step(positions, record);
+    // What leads all of them nowhere may still leave one after another a way.
+    if (phase_ != Phase::one_by_one && record.moved == 0) phase_ = Phase::one_by_one;
+    if (phase_ == Phase::one_by_one) {
+      if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
+      one_by_one_->step(positions, record);
+    }
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
     choose_next(record);
   }
 
  private:
-  enum class Phase : std::uint8_t { even, newton, lbfgs };
+  enum class Phase : std::uint8_t { even, newton, lbfgs, one_by_one };
 
   void begin() {
     phase_ = wants_even(problem_) ? Phase::even : Phase::newton;
     if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
+    steps_for_all_ = 0;
   }
 
   Smoother& once_made(std::unique_ptr<Smoother>& smoother, Solver solver) const {
     if (!smoother) smoother = make_smoother(problem_, solver, detail_);
     return *smoother;
+  }
+
+  [[nodiscard]] static bool is_at_limit(const StepRecord& record) {
+    return std::ranges::any_of(record.limits, [](auto limits) { return (limits & kLimitSurface) != 0; });
   }
 
   void choose_next(const StepRecord& record) {
@@ -55,15 +71,21 @@ class AutomaticSmoother : public Smoother {
       const bool bad =
           record.after.worst_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
       if (gain < (bad ? kLeastGain : kWorthwhileGain)) phase_ = Phase::lbfgs;
+    } else if (phase_ == Phase::one_by_one) {
+      if (gain < kOneByOneGain) phase_ = Phase::lbfgs;
+      steps_for_all_ = 0;
+    } else if (++steps_for_all_ >= kStepsForAll && gain < kHeldUpGain && is_at_limit(record)) {
+      phase_ = Phase::one_by_one;
     }
     if (phase_ != Phase::even) even_out_.reset();
   }
 
   const SmoothingProblem& problem_;
   RecordDetail detail_;
-  std::unique_ptr<Smoother> even_out_, newton_, lbfgs_;
+  std::unique_ptr<Smoother> even_out_, newton_, lbfgs_, one_by_one_;
   std::vector<Vec3> led_to_;
   Phase phase_ = Phase::even;
+  unsigned steps_for_all_ = 0;
 };
 
 }  // namespace

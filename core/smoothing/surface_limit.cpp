@@ -201,7 +201,10 @@ void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::a
     if (line.bound <= proven_) return;
     line.bound = 0;
   }
-  if (line.peak.foot.distance > seen_ || !is_near(view, a, b, kDivisions, line)) line.bound = INFINITY;
+  if (line.peak.foot.distance <= seen_ && is_near(view, a, b, kDivisions, line)) return;
+  line.bound = INFINITY;
+  if (view.now) return;
+  for (const Index v : problem_.triangles[line.peak.foot.triangle]) note_use(line, v);
 }
 
 void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blame,

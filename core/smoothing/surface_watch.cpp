@@ -13,8 +13,9 @@ namespace {
 constexpr double kInside = 1 - 1e-9;
 /// Where one triangle is over the limit, those over this share of it are held as well.
 constexpr double kNearLimit = 0.9;
-/// Where the surface went too far although steps kept it near, they have to keep it this much nearer, down to
-/// the least share of the limit.
+/// Where the surface went too far although steps kept it near, they have to keep it nearer: first by as much,
+/// and a little more, then by more, down to the least share of the limit.
+constexpr double kLittleNearer = 0.995;
 constexpr double kNearer = 0.93;
 constexpr double kLeastShare = 0.7;
 
@@ -94,17 +95,14 @@ double SurfaceWatch::largest_distance(double limit) const {
   return kInside * limit * bounding_diagonal(surface_);
 }
 
-void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found) const {
+void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const {
   if (add(holds.still, found.turned)) return;
   if (!found.far.empty() && share > kLeastShare) {
-    share *= kNearer;
+    const double by_as_much = kLittleNearer * limit / found.deviation.max;
+    share *= share == 1 ? std::max(kNearer, by_as_much) : kNearer;
     return;
   }
-  hold_still(holds.still, found);
-}
-
-void SurfaceWatch::hold_still(std::vector<Index>& still, const Finding& found) const {
-  if (!add(still, found.turned) && !add(still, found.far)) grow(still, problem_.triangles, start_.size());
+  if (!add(holds.still, found.far)) grow(holds.still, problem_.triangles, start_.size());
 }
 
 /// Whether the positions surely cover the same part of one plane, so that there is nothing

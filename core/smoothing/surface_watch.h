@@ -33,9 +33,7 @@ class SurfaceWatch {
   /// Holds more than was held in vain. Where steps that keep the surface near let it go too far between the
   /// edges that they look at, they have to keep it nearer, within a smaller share of the largest distance; at
   /// last vertices do not move at all, as where triangles turned over, and then their neighbours neither.
-  void hold_more(SurfaceHolds& holds, double& share, const Finding& found) const;
-  /// Adds to the vertices that do not move at all.
-  void hold_still(std::vector<Index>& still, const Finding& found) const;
+  void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const;
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;

@@ -31,12 +31,18 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   return foot.distance <= most ? there : Vec3(foot.point + (there - foot.point) * (most / foot.distance));
 }
 
-void Trial::start(std::span<const Vec3> from, StepRecord& record) {
+void Trial::start(std::span<const Vec3> from, StepRecord& record, bool lead_there) {
   from_ = from;
   to_.resize(from.size());
   if (bends_) tangent_ = record.displacement;
   parallel_for_blocks(from.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) place(record, static_cast<Index>(v));
+    for (std::size_t v = begin; v < end; ++v) {
+      if (lead_there) {
+        to_[v] = from_[v] + record.displacement[v];
+      } else {
+        place(record, static_cast<Index>(v));
+      }
+    }
   });
   take_touched();
 }

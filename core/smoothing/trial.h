@@ -20,8 +20,9 @@ class Trial {
   explicit Trial(const SmoothingProblem& problem)
       : problem_(problem), bends_(problem.surface != nullptr), stamp_(problem.triangle_count(), 0) {}
 
-  /// Starts from the record's tangent moves, all alphas 1, and bends the displacements to the surface.
-  void start(std::span<const Vec3> from, StepRecord& record);
+  /// Starts from the record's tangent moves, all alphas 1, and bends the displacements to the surface; where
+  /// they lead there already, not before one is cut back.
+  void start(std::span<const Vec3> from, StepRecord& record, bool lead_there = false);
 
   /// Multiplies a vertex' alpha by `factor`, sets `why` among its limits and moves the trial. No effect, and
   /// false, for a vertex that does not move.
