@@ -65,13 +65,12 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   EXPECT_EQ(mesh.positions, shaken_torus().positions);
 }
 
-TEST(BoundedRun, WhereADirectionForAllLeadsNowhereEachVertexGoesItsOwnWay) {
+TEST(BoundedRun, EndsNotWhereStepsForAllFindNoWay) {
   TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 3, .triangles = 800});
   run_bounded(mesh.positions, mesh.triangles, {.exponent = 2},
               [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {},
               {0.002});
-  // L-BFGS alone stalls before that.
-  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, 40.9);
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, 42);  // 41.1 with L-BFGS alone
 }
 
 TEST(BoundedRun, EveryStepOfAStatedLimitKeepsIt) {

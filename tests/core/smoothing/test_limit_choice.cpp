@@ -83,6 +83,32 @@ TEST(LimitChoice, ABumpGetsTheWiderLimitSinceThatPays) {
   EXPECT_EQ(chosen.quality.mean_min_angle_deg, wide.quality.mean_min_angle_deg);
 }
 
+class CountingSmoother : public Smoother {
+ public:
+  CountingSmoother(std::unique_ptr<Smoother> smoother, std::size_t& steps)
+      : smoother_(std::move(smoother)), steps_(steps) {}
+  void step(std::span<const Vec3> positions, StepRecord& record) override {
+    ++steps_;
+    smoother_->step(positions, record);
+  }
+
+ private:
+  std::unique_ptr<Smoother> smoother_;
+  std::size_t& steps_;
+};
+
+TEST(LimitChoice, AShortRunMakesNoLongTrial) {
+  TriangleMesh mesh = sphere();
+  std::size_t steps = 0;
+  run_bounded(mesh.positions, mesh.triangles, {},
+              [&](const SmoothingProblem& problem) {
+                return std::make_unique<CountingSmoother>(make_smoother(problem, Solver::automatic), steps);
+              },
+              {.iterations = 2}, {});
+  EXPECT_GT(steps, 2U);
+  EXPECT_LE(steps, 6U);
+}
+
 TEST(LimitChoice, ThePolishMayGoToTheWiderLimit) {
   const Smoothed run = smooth(sphere(), {});
   const Smoothed polished = smooth(sphere(), {}, PolishOptions{});

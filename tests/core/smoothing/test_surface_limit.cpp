@@ -74,6 +74,18 @@ TEST(SurfaceLimit, ATipThatIsCutOffIsTooFarThoughAllOfTheNewSurfaceIsNear) {
   EXPECT_TRUE(tent.blamed({0, 0, 0.5 - 0.9 * kDistance}).empty());
 }
 
+TEST(SurfaceLimit, WhatIsTooFarAtTheStartGetsNoFarther) {
+  const Tent tent(0.5);
+  std::vector<Vec3> moved = tent.x;
+  moved[0][2] -= 1.05 * kDistance;
+  SurfaceLimit limit(tent.problem);
+  limit.start(moved);
+  moved[0][2] -= 0.03 * kDistance;
+  EXPECT_FALSE(limit.keeps(moved, 0));
+  moved[0][2] += 0.2 * kDistance;
+  EXPECT_TRUE(limit.keeps(moved, 0));
+}
+
 TEST(SurfaceLimit, TellsTheDirectionAwayFromTheSurface) {
   const Tent tent(0.5);
   SurfaceLimit limit(tent.problem);

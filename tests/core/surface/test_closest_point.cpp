@@ -69,6 +69,19 @@ TEST(ClosestPoint, OfATriangleWithoutAreaIsThatOfItsEdges) {
   expect_consistent({2, 1, 0}, closest_point_of_triangle({2, 1, 0}, a, b, c), a, b, c);
 }
 
+TEST(ClosestPoint, OverANeedleIsItsFoot) {
+  std::mt19937 random(5);
+  for (const double height : {1e-2, 1e-4, 1e-6}) {
+    const Vec3 a = random_point(random, 1), along = random_point(random, 1);
+    const Vec3 normal = along.unitOrthogonal(), across = height * normal.cross(along);
+    const Vec3 b = a + along, c = a + 0.4 * along + across;
+    const Vec3 foot = 0.2 * a + 0.3 * b + 0.5 * c;
+    const SurfacePoint found = closest_point_of_triangle(foot + 0.1 * normal, a, b, c);
+    EXPECT_NEAR(found.distance, 0.1, 1e-13);
+    EXPECT_LT((found.point - foot).norm(), 1e-14 / height);
+  }
+}
+
 TEST(ClosestPoint, AtACornerIsThatCornerToTheLastBit) {
   const Vec3 a(0.1, 0.2, 0.3), b(1.7, 0.4, 0.9), c(0.3, 1.1, 0.7);
   for (const Vec3& corner : {a, b, c}) {
@@ -108,6 +121,7 @@ TEST(ClosestPointIndex, FindsWhatTryingEveryTriangleFinds) {
         SurfacePoint one =
             closest_point_of_triangle(p, soup.positions[a], soup.positions[b], soup.positions[c]);
         one.triangle = t;
+        ASSERT_EQ(index.closest_of(t, p).point, one.point);
         if (one.distance < best.distance) best = one;
       }
       const SurfacePoint found = index.closest(p);
