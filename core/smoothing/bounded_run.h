@@ -42,8 +42,9 @@ struct RunPart {
   SurfaceHolds holds;
 };
 
-/// Told of each part before its first step, with the positions there. Those of a part with done == 0 are what
-/// the problems of all parts until the next such part are made from.
+/// Told of each part before its first step, with the positions there. One that begins where an earlier one
+/// did is made instead of that and all after it. Those of a part with done == 0 are what the problems of all
+/// parts until the next such part are made from.
 using PartObserver = std::function<void(const RunPart& part, std::span<const Vec3> positions)>;
 
 /// What a bounded run did.

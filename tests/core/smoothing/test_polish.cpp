@@ -224,6 +224,18 @@ TEST(Polish, KeepsBordersRidgesAndTheSurface) {
   EXPECT_LE(measure_quality(p.polished).max_angle_deg, measure_quality(p.smoothed).max_angle_deg + 1e-9);
 }
 
+TEST(Polish, GoesAlongWhatHoldsAVertexBack) {
+  TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 3, .triangles = 800});
+  const auto smoother = [](const SmoothingProblem& p) { return make_smoother(p, Solver::automatic); };
+  double smoothed = 0;
+  run_bounded(mesh.positions, mesh.triangles, {.exponent = 2}, smoother, {}, {0.002}, {},
+              PolishOptions{.goal = PolishGoal::mean}, [&](const RunPart& part, std::span<const Vec3> x) {
+                if (part.polish)
+                  smoothed = measure_quality({{x.begin(), x.end()}, mesh.triangles, {}}).mean_min_angle_deg;
+              });
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, smoothed + 0.5);
+}
+
 TEST(Polish, DoesNotDependOnThreads) {
   const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 4, .triangles = 1000});
   const PolishOptions both{.goal = PolishGoal::both};
