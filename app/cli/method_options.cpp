@@ -83,10 +83,10 @@ void declare_method(CLI::App& app, MethodSpec& spec) {
                  "near-isometry (default), or a baseline to compare with: laplacian (to the mean of the "
                  "neighbours) or angle-based (to the bisectors at the neighbours, Zhou and Shimada)")
       ->type_name("METHOD");
-  app.add_option("--solver", spec.solver,
-                 "Of near-isometry: auto (default: evening out, Newton steps, then L-BFGS), jacobi (the "
-                 "paper's step), "
-                 "newton or lbfgs")
+  app.add_option(
+         "--solver", spec.solver,
+         "Of near-isometry: auto (default: evening out, Newton steps, then L-BFGS, and one vertex after "
+         "another where many are at the limit), jacobi (the paper's step), newton or lbfgs")
       ->type_name("SOLVER");
   app.add_option("--weighting", spec.weighting,
                  "How neighbours count. laplacian: length (default, by the edge to them) or uniform; "

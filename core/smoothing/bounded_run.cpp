@@ -152,7 +152,7 @@ SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> posi
     announce(attempts, {result.run.iterations, problem.exponent, true, holds}, positions);
     result.polish =
         run_polish(problem, positions, *attempts.polish, result.run.iterations, attempts.observer);
-    const SurfaceWatch::Finding found = watch.look(positions, limit);
+    SurfaceWatch::Finding found = watch.look(positions, limit);
     if (found.sound()) return found;
     watch.hold_more(holds, share, found, limit);
   }

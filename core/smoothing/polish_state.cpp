@@ -93,12 +93,12 @@ std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const Angle
     }
     return std::nullopt;
   };
-  if (const auto there = along(d, kPolishHalvings)) return there;
+  if (auto there = along(d, kPolishHalvings)) return there;
   // What holds a vertex back leads along itself.
   if (held_back_ == 0 || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
   const Vec3 side = tangent_axis(problem_, x_, vertex).cross(d);
   for (const double turn : kTurns) {
-    if (const auto there = along(std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
+    if (auto there = along(std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
   }
   return std::nullopt;
 }

@@ -16,7 +16,7 @@ struct HeightFitOptions {
   int degree = 4;
   /// Samples for each unknown below which the degree is lowered.
   double samples_per_unknown = 1.5;
-  /// Smallest share of a scaled column that must be independent of the columns before it; below this the
+  /// Smallest share of a column that must be independent of the columns before it; below this the
   /// degree is lowered.
   double independence = 0.03;
 };
@@ -33,7 +33,7 @@ class HeightFit {
   /// How many samples the wanted degree takes.
   static std::size_t samples_for(const HeightFitOptions& options);
 
-  /// Weighted least squares through the samples (at most the first kMaxSamples), by QR with scaled columns;
+  /// Weighted least squares through the samples (at most the first kMaxSamples), by QR (modified Gram-Schmidt);
   /// the degree is lowered where there are too few of them or they determine too little (Jiao & Wang,
   /// "Reconstructing high-order surfaces for meshing", 2012). Weights fall with the distance and with the
   /// angle of the normals: what turns away by 90 degrees counts nothing.
