@@ -33,10 +33,10 @@ class HeightFit {
   /// How many samples the wanted degree takes.
   static std::size_t samples_for(const HeightFitOptions& options);
 
-  /// Weighted least squares through the samples (at most the first kMaxSamples), by QR (modified Gram-Schmidt);
-  /// the degree is lowered where there are too few of them or they determine too little (Jiao & Wang,
-  /// "Reconstructing high-order surfaces for meshing", 2012). Weights fall with the distance and with the
-  /// angle of the normals: what turns away by 90 degrees counts nothing.
+  /// Weighted least squares through the samples (at most the first kMaxSamples), by QR (modified
+  /// Gram-Schmidt); the degree is lowered where there are too few of them or they determine too little (Jiao
+  /// & Wang, "Reconstructing high-order surfaces for meshing", 2012). Weights fall with the distance and with
+  /// the angle of the normals: what turns away by 90 degrees counts nothing.
   HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<const FitSample> samples,
             const HeightFitOptions& options = {});
 
