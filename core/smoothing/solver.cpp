@@ -18,6 +18,7 @@ constexpr double kLeastGain = 0.002;
 
 /// Where vertices are at the limit of the distance and steps of L-BFGS gain less than this share, or none is
 /// found, vertices move one by one, as long as that gains the other share; then L-BFGS has so many steps.
+/// Where it finds none even so, they go on one by one.
 constexpr double kHeldUpGain = 1e-4;
 constexpr double kOneByOneGain = 1e-3;
 constexpr unsigned kStepsForAll = 16;
@@ -35,7 +36,10 @@ class AutomaticSmoother : public Smoother {
     if (phase_ == Phase::newton) once_made(newton_, Solver::newton).step(positions, record);
     if (phase_ == Phase::lbfgs) once_made(lbfgs_, Solver::lbfgs).step(positions, record);
     // What leads all of them nowhere may still leave one after another a way.
-    if (phase_ != Phase::one_by_one && record.moved == 0) phase_ = Phase::one_by_one;
+    if (phase_ != Phase::one_by_one && record.moved == 0) {
+      all_are_stuck_ = phase_ == Phase::lbfgs && steps_for_all_ == 0;
+      phase_ = Phase::one_by_one;
+    }
     if (phase_ == Phase::one_by_one) {
       if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
       one_by_one_->step(positions, record);
@@ -52,6 +56,7 @@ class AutomaticSmoother : public Smoother {
     phase_ = wants_even(problem_) ? Phase::even : Phase::newton;
     if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
     steps_for_all_ = 0;
+    all_are_stuck_ = false;
   }
 
   Smoother& once_made(std::unique_ptr<Smoother>& smoother, Solver solver) const {
@@ -72,7 +77,7 @@ class AutomaticSmoother : public Smoother {
           record.after.worst_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
       if (gain < (bad ? kLeastGain : kWorthwhileGain)) phase_ = Phase::lbfgs;
     } else if (phase_ == Phase::one_by_one) {
-      if (gain < kOneByOneGain) phase_ = Phase::lbfgs;
+      if (gain < kOneByOneGain && !all_are_stuck_) phase_ = Phase::lbfgs;
       steps_for_all_ = 0;
     } else if (++steps_for_all_ >= kStepsForAll && gain < kHeldUpGain && is_at_limit(record)) {
       phase_ = Phase::one_by_one;
@@ -86,6 +91,7 @@ class AutomaticSmoother : public Smoother {
   std::vector<Vec3> led_to_;
   Phase phase_ = Phase::even;
   unsigned steps_for_all_ = 0;
+  bool all_are_stuck_ = false;  // L-BFGS found no step from where others had led
 };
 
 }  // namespace
