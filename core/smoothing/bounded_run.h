@@ -75,10 +75,10 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 /// keeps the limit (SurfaceLimit). A run under an automatic limit that turns out to be too near
 /// (wider_limit_pays) is done again from the start under the wider one. Should the result be farther than the
 /// limit all the same, the run is done again with steps that keep the surface nearer, and at last with
-/// vertices held still: in the end the limit holds, if with everything held. Where only the polish went too
-/// far, only that is done again. So it goes where a triangle lies
-/// upside down (inverted_triangles) that did not before. Where no exponent is asked for, it is 2, or 1 where
-/// that would lower the mean of the triangles' smallest angles. Throws as make_problem.
+/// vertices held still: in the end the limit holds, if with everything held. So it goes where a triangle lies
+/// upside down (inverted_triangles) that did not before. Where only the polish did that, only it is done
+/// again. Where no exponent is asked for, it is 2, or 1 where that would lower the mean of the triangles'
+/// smallest angles. Throws as make_problem.
 ///
 /// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
 /// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of

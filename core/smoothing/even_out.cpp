@@ -2,6 +2,7 @@
 
 #include "mesh/parallel.h"
 #include "smoothing/guarded_smoother.h"
+#include "smoothing/renumbered_smoother.h"
 #include "smoothing/tangent.h"
 
 namespace isorelax {
@@ -79,7 +80,9 @@ bool wants_even(const SmoothingProblem& problem) {
 }
 
 std::unique_ptr<Smoother> make_even_out(const SmoothingProblem& problem, RecordDetail detail) {
-  return std::make_unique<EvenOutSmoother>(problem, detail);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<EvenOutSmoother>(numbered, detail);
+  });
 }
 
 }  // namespace isorelax

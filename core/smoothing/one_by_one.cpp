@@ -6,6 +6,7 @@
 #include "smoothing/energy_ring.h"
 #include "smoothing/guarded_smoother.h"
 #include "smoothing/polish_state.h"
+#include "smoothing/renumbered_smoother.h"
 
 namespace isorelax {
 namespace {
@@ -69,7 +70,9 @@ class OneByOneSmoother : public GuardedSmoother {
 }  // namespace
 
 std::unique_ptr<Smoother> make_one_by_one(const SmoothingProblem& problem, RecordDetail detail) {
-  return std::make_unique<OneByOneSmoother>(problem, detail);
+  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+    return std::make_unique<OneByOneSmoother>(numbered, detail);
+  });
 }
 
 }  // namespace isorelax

@@ -97,9 +97,11 @@ enum class Mobility : std::uint8_t { none, line, plane };
 
 /// The surface as it was, that the mesh has to stay near.
 struct NearSurface {
-  double distance;                                   ///< length units
-  std::vector<Vec3> positions;                       ///< as they were
-  std::shared_ptr<const ClosestPointIndex> surface;  ///< its triangles; numbered as those of a frozen surface
+  double distance;              ///< length units
+  std::vector<Vec3> positions;  ///< as they were
+  /// Its triangles. Where there is a frozen surface they have its numbers, which are the problem's own only
+  /// in the copy that smoothers work on.
+  std::shared_ptr<const ClosestPointIndex> surface;
 };
 
 /// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.

@@ -21,6 +21,7 @@ constexpr double kSharpTurnDeg = 10;
 /// An edge is divided that often at most, and not too near to an end.
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
+/// Triangles that an edge is followed over before it is divided instead.
 constexpr unsigned kMostParts = 16;
 /// Share of a vertex' move that counts at a point from which on it is to blame.
 constexpr double kLeastWeight = 0.05;
@@ -81,17 +82,15 @@ SurfacePoint SurfaceLimit::closest_of(const View& view, Index triangle, const Ve
 SurfacePoint SurfaceLimit::nearest(const View& view, const Vec3& point, Index triangle) const {
   const Topology& topology = problem_.topology;
   const auto foot = [&](Index t) { return closest_of(view, t, point); };
-  const auto about = [&](Corner c) { return topology.corners_of(problem_.triangles[c / 3][c % 3]); };
   const auto walk_from = [&](const SurfacePoint& start) {
-    return walk_nearer(
-        start, foot, [&](Corner c) { return topology.opposite(c); }, about);
+    return walk_over_mesh(start, foot, problem_.triangles, topology);
   };
   SurfacePoint found = walk_from(foot(triangle));
   if (found.distance > seen_ && view.now) return problem_.near->surface->closest(point, found.triangle);
   while (found.distance > seen_) {
     SurfacePoint nearer = found;
     for (unsigned k = 0; k < 3; ++k) {
-      for (const Corner c : about(3 * found.triangle + k)) {
+      for (const Corner c : topology.corners_of(problem_.triangles[found.triangle][k])) {
         const SurfacePoint other = foot(c / 3);
         if (other.distance < nearer.distance) nearer = other;
       }
@@ -202,6 +201,7 @@ void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::a
     line.bound = 0;
   }
   if (line.peak.foot.distance <= seen_ && is_near(view, a, b, kDivisions, line)) return;
+  // What is too far depends on the triangle nearest to it, as what is near does.
   line.bound = INFINITY;
   if (view.now) return;
   for (const Index v : problem_.triangles[line.peak.foot.triangle]) note_use(line, v);

@@ -33,6 +33,7 @@ class SurfaceWatch {
   /// Holds more than was held in vain. Where steps that keep the surface near let it go too far between the
   /// edges that they look at, they have to keep it nearer, within a smaller share of the largest distance; at
   /// last vertices do not move at all, as where triangles turned over, and then their neighbours neither.
+  /// `limit` is the one that was looked with.
   void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const;
 
  private:

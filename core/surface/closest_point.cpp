@@ -43,10 +43,10 @@ constexpr double kAtCorner = 1 - 1e-6;
 /// that edge, outside of two on one of the two.
 inline Candidate closest(const Vec3& p, const PreparedTriangle& t) {
   Candidate best;
-  const Vec3 ap = p - t.a;
-  const double v = ap.dot(t.gradient_b), w = ap.dot(t.gradient_c), u = 1 - v - w;
+  const Vec3 foot = t.barycentric(p);
+  const double u = foot[0], v = foot[1], w = foot[2];
   if (t.has_area && u >= 0 && v >= 0 && w >= 0) {
-    best.weights = {u, v, w};
+    best.weights = foot;
     best.point = t.a + v * (t.b - t.a) + w * (t.c - t.a);
     best.squared = (p - best.point).squaredNorm();
     // A vertex is at distance zero, not at rounding error.

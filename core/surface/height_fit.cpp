@@ -14,9 +14,15 @@ constexpr int term_count(int degree) {
   return (degree + 1) * (degree + 2) / 2 - 1;
 }
 
+constexpr int kMaxTerms = term_count(HeightFit::kMaxDegree);
+/// The rows of a least-squares system: the terms, then the height; as wide as
+/// vectors like it.
+constexpr int kWidth = kMaxTerms + 2;
+constexpr int kHeight = kWidth - 1;
+using Row = std::array<double, kWidth>;
+
 /// u, v, u^2, u v, v^2, u^3, ...: a lower degree is a leading part.
-template <typename Terms>
-void fill_terms(double u, double v, int degree, Terms& row) {
+void fill_terms(double u, double v, int degree, Row& row) {
   row[0] = u;
   row[1] = v;
   int from = 0;
@@ -27,12 +33,6 @@ void fill_terms(double u, double v, int degree, Terms& row) {
     to += d + 1;
   }
 }
-
-constexpr int kMaxTerms = term_count(HeightFit::kMaxDegree);
-/// The rows of a least-squares system: the terms, then the height.
-constexpr int kWidth = kMaxTerms + 2;
-constexpr int kHeight = kWidth - 1;
-using Row = std::array<double, kWidth>;
 
 /// Modified Gram-Schmidt, which is as sound as Householder's QR where the right-hand side takes part. Leaves
 /// the rows of R with what belongs to them of Q^T b. A column that is zero gets a row of zeros.

@@ -68,10 +68,7 @@ class Measurement {
 
   [[nodiscard]] Index walk(const Vec3& point, Index from) const {
     const auto foot = [&](Index t) { return to_.index.closest_of(t, point); };
-    return walk_nearer(
-               foot(from), foot, [&](Corner c) { return to_.topology.opposite(c); },
-               [&](Corner c) { return to_.topology.corners_of(to_.triangles[c / 3][c % 3]); })
-        .triangle;
+    return walk_over_mesh(foot(from), foot, to_.triangles, to_.topology).triangle;
   }
 
   void note(Index t, const FarPoint& point) {

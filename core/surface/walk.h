@@ -37,4 +37,13 @@ SurfacePoint walk_nearer(const SurfacePoint& start, const Foot& foot, const Acro
   return best;
 }
 
+/// walk_nearer over all edges and about all vertices of a mesh.
+template <typename Foot>
+SurfacePoint walk_over_mesh(const SurfacePoint& start, const Foot& foot, std::span<const Triangle> triangles,
+                            const Topology& topology) {
+  return walk_nearer(
+      start, foot, [&](Corner c) { return topology.opposite(c); },
+      [&](Corner c) { return topology.corners_of(triangles[c / 3][c % 3]); });
+}
+
 }  // namespace isorelax

@@ -235,14 +235,12 @@ int run(std::span<char*> names) {
   std::printf(
       "One thread each. Angles in degrees: smallest, largest, mean of the triangles' smallest. Distance\n"
       "from the input (largest, RMS) over its bounding-box diagonal, change of volume, inverted triangles,\n"
-      "seconds from the mesh as it was read, and in the last column those in which Isorelax is as good as "
-      "the\n"
-      "peer in the smallest angle and the mean (-: it is not), free and as near as the peer. Peers hold the\n"
-      "boundary and all features. Where a peer stays nearer to the input, or got better by going farther,\n"
-      "the rows below are ours with that distance as the limit. Polished are the worst angles, then the "
-      "mean\n"
-      "while the worst tenth of the triangles stay as good as they are; for the mean, it alone, while the\n"
-      "worst of all does.\n\n");
+      "seconds from the mesh as it was read, and in the last column those in which Isorelax is as good as\n"
+      "the peer in the smallest angle and the mean (-: it is not), free and as near as the peer. Peers hold\n"
+      "the boundary and all features. Where a peer stays nearer to the input, or got better by going\n"
+      "farther, the rows below are ours with that distance as the limit. Polished are the worst angles,\n"
+      "then the mean while the worst tenth of the triangles stay as good as they are; for the mean, it\n"
+      "alone, while the worst of all does.\n\n");
   std::printf("  %-44s %7s %7s %7s  %8s %8s %8s %5s %8s %9s\n\n", "", "min", "max", "mean", "max dev",
               "rms dev", "volume", "inv", "seconds", "ours then");
   if (!names.empty()) {
