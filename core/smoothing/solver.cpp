@@ -7,8 +7,11 @@
 namespace isorelax {
 namespace {
 
-/// Evening out is cheap and soon done: what gains less than this share of the energy is the last such step.
+/// Evening out is cheap and soon done: what gains less than the first share of the energy is the last such
+/// step. So is what gains more than the second: that it leaves nothing to the next one was found on 19 of 20
+/// scans.
 constexpr double kEvenGain = 0.05;
+constexpr double kEvenedOut = 0.25;
 /// Newton steps open the worst places fast, each vertex at its own pace; once none is left that bad (E over
 /// the sum of the weights), a step gains less than this share of the energy, L-BFGS converges faster. While
 /// one is left, less will do.
@@ -71,7 +74,7 @@ class AutomaticSmoother : public Smoother {
   void choose_next(const StepRecord& record) {
     const double gain = (record.before.energy - record.after.energy) / record.before.energy;
     if (phase_ == Phase::even) {
-      if (gain < kEvenGain) phase_ = Phase::newton;
+      if (gain < kEvenGain || gain > kEvenedOut) phase_ = Phase::newton;
     } else if (phase_ == Phase::newton) {
       const bool bad =
           record.after.worst_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
