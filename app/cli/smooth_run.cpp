@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <limits>
 #include <string_view>
@@ -19,6 +20,15 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, PolishGoal>, 3> kPolishGoals{
     {{"worst", PolishGoal::worst}, {"mean", PolishGoal::mean}, {"both", PolishGoal::both}}};
+
+/// What a word says about the limit of the distance; none where it is a number.
+std::optional<AutomaticLimit> limit_word(const std::string& text) {
+  if (text == "nearest") return AutomaticLimit::nearest;
+  if (text == "widest") return AutomaticLimit::widest;
+  return std::nullopt;
+}
+
+const CLI::Validator kDistance = number_between(0, std::numeric_limits<double>::infinity());
 
 bool is_file(const std::string& text) {
   std::error_code ignored;
@@ -55,11 +65,16 @@ void SmoothRun::declare(CLI::App& app) {
       ->type_name("SHARE")
       ->check(number_between(0, 1));
   app.add_option(
-         "--max-deviation", limit_.max,
-         "Largest distance from the input surface, of its bounding-box diagonal (default: as near as costs "
-         "little, 0.003 at most, more where the mesh is coarse; inf: any)")
+         "--max-deviation", deviation_,
+         "Largest distance from the input surface, of its bounding-box diagonal; inf: any; widest: 0.003, "
+         "more "
+         "where the mesh is coarse; nearest: mean edge length times dihedral angle, of that no less than an "
+         "eighth (default: nearest, or widest where that pays)")
       ->type_name("D")
-      ->check(number_between(0, std::numeric_limits<double>::infinity()));
+      ->check([](const std::string& text) {
+        const std::string fault = limit_word(text) ? std::string() : kDistance(text);
+        return fault.empty() ? fault : fault + ", nor nearest or widest";
+      });
   for (const CLI::Option* option : app.get_options()) {
     if (std::ranges::find(others, option) == others.end()) options_.push_back(option);
   }
@@ -79,6 +94,14 @@ std::optional<PolishOptions> SmoothRun::parse_polish() const {
     return options;
   }
   throw UsageError("--polish " + polish_ + ": expected worst, mean, both or none");
+}
+
+DeviationLimit SmoothRun::limit() const {
+  if (deviation_.empty()) return {};
+  if (const auto word = limit_word(deviation_)) return {.max = {}, .automatic = *word};
+  double limit = 0;
+  std::from_chars(deviation_.data(), deviation_.data() + deviation_.size(), limit);
+  return {.max = limit, .automatic = {}};
 }
 
 std::vector<std::string> SmoothRun::words() const {
@@ -114,7 +137,7 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
     };
     if (method.guarded) {
       static_cast<BoundedResult&>(outcome) =
-          run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit_, show,
+          run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit(), show,
                       parse_polish(), part_observer);
     } else {
       RunPart only;

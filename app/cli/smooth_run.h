@@ -50,7 +50,7 @@ class SmoothRun {
   /// UsageError.
   [[nodiscard]] RunPlan plan(Console& console, const TriangleMesh& mesh) const;
 
-  [[nodiscard]] const DeviationLimit& limit() const { return limit_; }
+  [[nodiscard]] DeviationLimit limit() const;
 
  private:
   [[nodiscard]] std::optional<PolishOptions> parse_polish() const;
@@ -60,7 +60,7 @@ class SmoothRun {
   MethodSpec method_;
   ProblemSpec problem_;
   RunOptions run_;
-  DeviationLimit limit_;
+  std::string deviation_;  ///< empty: not stated
   std::string polish_ = "none";
   PolishOptions polish_options_;
 };

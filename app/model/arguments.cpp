@@ -53,6 +53,20 @@ std::string pin_word(const std::vector<Index>& pinned) {
   return word;
 }
 
+std::string reach_word(const SmoothingSettings& s) {
+  switch (s.reach) {
+    case Reach::nearest:
+      return "nearest";
+    case Reach::widest:
+      return "widest";
+    case Reach::any:
+      return "inf";
+    case Reach::typed:
+      break;
+  }
+  return number_word(s.max_deviation);
+}
+
 template <typename T>
 bool read_number(std::string_view word, T& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -110,6 +124,18 @@ bool read_pins(const std::string& word, SmoothingSettings& s) {
   return true;
 }
 
+bool read_reach(const std::string& word, SmoothingSettings& s) {
+  if (word == "nearest")
+    s.reach = Reach::nearest;
+  else if (word == "widest")
+    s.reach = Reach::widest;
+  else if (word == "inf")
+    s.reach = Reach::any;
+  else
+    s.reach = Reach::typed;
+  return s.reach != Reach::typed || (read_number(word, s.max_deviation) && s.max_deviation >= 0);
+}
+
 using Reader = std::function<bool(const std::string&, SmoothingSettings&)>;
 
 const std::map<std::string, Reader>& readers() {
@@ -138,9 +164,14 @@ const std::map<std::string, Reader>& readers() {
       {"--iterations", [](const std::string& w, S& s) { return read_number(w, s.iterations); }},
       {"--tolerance", [](const std::string& w, S& s) { return read_number(w, s.tolerance); }},
       {"--pin", read_pins},
-      // Results do not depend on the first; where the second held vertices, the parts of the run say so.
-      {"--threads", [](const std::string&, S&) { return true; }},
-      {"--max-deviation", [](const std::string&, S&) { return true; }}};
+      {"--polish",
+       [](const std::string& w, S& s) {
+         return read_choice(w, {Polish::none, Polish::worst, Polish::mean, Polish::both}, polish_option,
+                            s.polish);
+       }},
+      {"--max-deviation", read_reach},
+      // Results do not depend on it.
+      {"--threads", [](const std::string&, S&) { return true; }}};
   return kReaders;
 }
 
@@ -165,7 +196,8 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   if (!s.pinned.empty()) add("--pin", pin_word(s.pinned));
   add("--iterations", std::to_string(s.iterations));
   add("--tolerance", number_word(s.tolerance));
-  add("--max-deviation", "inf");
+  if (s.polish != Polish::none) add("--polish", std::string(polish_option(s.polish)));
+  add("--max-deviation", reach_word(s));
   return words;
 }
 

@@ -79,18 +79,12 @@ void Executor::operator()(const SetView& command) {
     ask_about_step();
 }
 
-void Executor::operator()(const Run& command) {
-  if (s_.task == Task::move)
-    start_motion(command.steps);
-  else
-    start_run(s_.remaining > 0 ? s_.remaining : s_.smoothing.iterations);
-}
-
 void Executor::operator()(const Step& /*command*/) {
+  s_.then_polish_ = false;
   if (s_.task == Task::move)
     start_motion(1);
   else
-    start_run(1);
+    start_run(1, kind_here());
 }
 
 void Executor::operator()(const Pause& /*command*/) {
@@ -103,20 +97,20 @@ void Executor::operator()(const Cancel& /*command*/) {
   s_.engine.cancel();
 }
 
-void Executor::start_run(unsigned iterations) {
+void Executor::start_run(unsigned iterations, PartKind kind) {
   if (!s_.current) {
     say(MessageKind::info, "Open a mesh first.");
     return;
   }
   if (s_.seeking_ && s_.activity == Activity::idle) {
-    s_.when_idle_.push_back([iterations](Session& s) { Executor(s).start_run(iterations); });
+    s_.when_idle_.push_back([iterations, kind](Session& s) { Executor(s).start_run(iterations, kind); });
     return;
   }
   if (s_.activity != Activity::idle || iterations == 0) return;
-  if (refuses_to_smooth() || run_over_recorded(iterations)) return;
+  if (refuses_to_smooth() || (kind == kind_here() && run_over_recorded(iterations))) return;
   forget_motion_energy();
   prepare_run(iterations);
-  const Place left = begin_branch();
+  const Place left = begin_branch(kind);
   // A new series starts where this one will: the plots need its first point.
   if (s_.current->energy && !s_.current->energy->of_record &&
       (s_.history.empty() || s_.history.back().series != s_.series)) {
@@ -125,7 +119,7 @@ void Executor::start_run(unsigned iterations) {
         {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
   }
   s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series,
-                                 s_.timeline.current()->recording, left, s_.timeline.cursor.branch,
+                                 s_.timeline.current()->recording, left, s_.timeline.cursor.branch, kind,
                                  s_.breakpoints, s_.step_budget}));
 }
 
@@ -305,7 +299,10 @@ void Executor::operator()(RunEnded& event) {
     Branch& branch = s_.timeline.branches[s_.timeline.cursor.branch];
     branch.result = event.result;
     branch.ended = event.broken_by.empty() ? std::string(to_string(event.result.stopped)) : event.broken_by;
+    if (!cancelled && event.broken_by.empty() && event.result.stopped != StopReason::fixed)
+      polish_when_idle(branch.kind);
   }
+  s_.then_polish_ = false;
   end_run();
   measure_surface();
 }
@@ -328,7 +325,8 @@ void Executor::operator()(SurfaceMeasured& event) {
     text += (text.empty() ? "" : " and ") + std::string(away);
   }
   if (!text.empty())
-    say(MessageKind::warning, text + ". isorelax smooth would have prevented that; here, pin vertices.");
+    say(MessageKind::warning,
+        text + ". isorelax smooth would have prevented that; here, pin vertices or take a smaller limit.");
   s_.surface = std::move(event);
 }
 

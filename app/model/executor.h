@@ -73,7 +73,9 @@ class Executor {
 
  private:
   void say(MessageKind kind, std::string text);
-  void start_run(unsigned iterations);
+  void start_run(unsigned iterations, PartKind kind);
+  [[nodiscard]] PartKind kind_here() const;
+  void polish_when_idle(PartKind after);
   void prepare_run(unsigned iterations);
   void forget_motion_energy();
   void start_motion(unsigned steps);
@@ -88,7 +90,7 @@ class Executor {
   bool wait_for_run(std::function<void(Session&)> then);
   void go_on_when_idle();
   bool run_over_recorded(unsigned iterations);
-  Place begin_branch();
+  Place begin_branch(PartKind kind);
   void drop_empty_branch();
   void seek(unsigned branch, unsigned iteration);
   void ask_about_step();

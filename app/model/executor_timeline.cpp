@@ -25,6 +25,10 @@ bool has_converged(const RunResult& result) {
   return result.stopped != StopReason::iterations && result.stopped != StopReason::cancelled;
 }
 
+unsigned polish_steps() {
+  return PolishOptions().iterations;
+}
+
 }  // namespace
 
 bool Session::continues_branch() const {
@@ -33,8 +37,33 @@ bool Session::continues_branch() const {
   if (branch->motion)
     return same_motion(*branch->motion, motion) && timeline.cursor.iteration >= branch->start;
   return branch->not_redone.empty() && same_steps(branch->settings, smoothing) &&
+         (branch->kind == PartKind::solver || branch->settings.polish == smoothing.polish) &&
          timeline.cursor.iteration >= branch->start &&
          (!branch->from_file || timeline.cursor.iteration < branch->tip());
+}
+
+// A branch of a polish goes on with it; everywhere else the solver makes the steps.
+PartKind Executor::kind_here() const {
+  return s_.continues_branch() ? s_.timeline.current()->kind : PartKind::solver;
+}
+
+void Executor::operator()(const Run& command) {
+  s_.then_polish_ = false;
+  if (s_.task == Task::move) return start_motion(command.steps);
+  const Branch* branch = s_.timeline.current();
+  s_.then_polish_ = s_.smoothing.polish != Polish::none;
+  const bool is_done = s_.continues_branch() && !branch->from_file && branch->result &&
+                       s_.timeline.cursor.iteration == branch->tip() && has_converged(*branch->result);
+  const bool goes_on = !(is_done && s_.then_polish_);
+  const PartKind kind = goes_on ? kind_here() : PartKind::polish;
+  const unsigned all = kind == PartKind::polish ? polish_steps() : s_.smoothing.iterations;
+  start_run(goes_on && s_.remaining > 0 ? s_.remaining : all, kind);
+}
+
+// After the steps of a solver, if that was asked for.
+void Executor::polish_when_idle(PartKind after) {
+  if (!std::exchange(s_.then_polish_, false) || after == PartKind::polish) return;
+  s_.when_idle_.push_front([](Session& s) { Executor(s).start_run(polish_steps(), PartKind::polish); });
 }
 
 void Executor::go_on_when_idle() {
@@ -76,6 +105,7 @@ bool Executor::run_over_recorded(unsigned iterations) {
   const unsigned to = std::min(from + iterations, branch.tip());
   const unsigned rest = from + iterations - to;
   const bool ended = rest > 0 && branch.result && has_converged(*branch.result);
+  const auto go_on = [rest, kind = branch.kind](Session& s) { Executor(s).start_run(rest, kind); };
   if (any_active(s_.breakpoints)) {
     s_.activity = Activity::running;
     s_.broken_by.clear();
@@ -84,15 +114,16 @@ bool Executor::run_over_recorded(unsigned iterations) {
         scan_job(
             {s_.document, branch.settings, branch.recording, branch.start, {at, from, to, s_.breakpoints}}));
     s_.after_scan_ = nullptr;
-    if (rest > 0 && !ended) s_.after_scan_ = [rest](Session& s) { Executor(s).start_run(rest); };
+    if (rest > 0 && !ended) s_.after_scan_ = go_on;
     s_.scan_to_ = to;
     return true;
   }
   seek(at, to);
   if (ended) {
     s_.last_run = branch.result;
+    polish_when_idle(branch.kind);
   } else if (rest > 0 && !branch.from_file) {
-    s_.when_idle_.push_back([rest](Session& s) { Executor(s).start_run(rest); });
+    s_.when_idle_.push_back(go_on);
   }
   return true;
 }
@@ -112,14 +143,15 @@ void Executor::operator()(Scanned& event) {
 
 // Runs go on with the present branch at its end; everywhere else, or with other settings, they begin one.
 // Tells where that leaves another.
-Place Executor::begin_branch() {
+Place Executor::begin_branch(PartKind kind) {
   Timeline& timeline = s_.timeline;
-  if (s_.continues_branch()) return {};
+  if (s_.continues_branch() && timeline.current()->kind == kind) return {};
   Branch branch;
+  branch.kind = kind;
   branch.settings = s_.smoothing;
   branch.start = timeline.cursor.iteration;
   branch.parent = branch_shown_at_start();
-  branch.name = branch_name(s_.smoothing, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
+  branch.name = branch_name(s_.smoothing, kind, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
   branch.recording = std::make_shared<Recording>();
   if (s_.current->energy && s_.current->energy->of_record) ++s_.series;  // these settings measure another one
   if (s_.current->energy && !s_.current->energy->of_record &&
@@ -336,6 +368,7 @@ void Executor::operator()(const Teach& /*command*/) {
   turn_to(Task::smooth);
   const Cursor from = s_.timeline.cursor;
   const SmoothingSettings settings = s_.smoothing;
+  s_.then_polish_ = false;
   s_.taught_.clear();
   for (const Method method : {Method::laplacian, Method::angle_based, Method::near_isometry}) {
     s_.when_idle_.push_back([from](Session& s) {
@@ -344,7 +377,7 @@ void Executor::operator()(const Teach& /*command*/) {
     s_.when_idle_.push_back([settings, method](Session& s) {
       s.smoothing = settings;
       s.smoothing.method = method;
-      Executor(s).start_run(settings.iterations);
+      Executor(s).start_run(settings.iterations, PartKind::solver);
     });
     s_.when_idle_.push_back([](Session& s) { s.taught_.push_back(s.timeline.cursor); });
   }

@@ -7,7 +7,7 @@
 #include "model/arguments.h"
 #include "model/timeline_jobs.h"
 #include "model/trace_jobs.h"
-#include "smoothing/limit_choice.h"
+#include "smoothing/polish.h"
 #include "smoothing/surface_watch.h"
 
 namespace isorelax::model {
@@ -33,7 +33,8 @@ class RunReporter {
     found_.rows.push_back({iteration_, record.after.energy, quality.min_angle_deg, quality.max_angle_deg,
                            record.largest_move, request_.series});
     found_.steps.push_back(summary_of(record, iteration_, positions.size()));
-    context_.progress("Smoothing", static_cast<double>(iteration) / request_.iterations);
+    context_.progress(request_.kind == PartKind::polish ? "Polishing" : "Smoothing",
+                      static_cast<double>(iteration) / request_.iterations);
     const bool broken = look_at_breakpoints(record, positions, false);
     const auto since = Clock::now() - published_;
     if (context_.view_is_waiting() && since > measuring_ && since > std::chrono::milliseconds(15))
@@ -108,7 +109,7 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
                              request.start->positions(), base_at(*request.document, request.left));
   const Workbench::ProblemPtr problem =
       bench.problem(request.document, request.settings, request.recording->base());
-  Smoother& smoother = bench.smoother(request.document, request.settings, *request.recording);
+  Smoother& smoother = bench.smoother(request.document, request.settings, request.kind, *request.recording);
   if (context.cancelled()) {
     RunResult cancelled;
     cancelled.stopped = StopReason::cancelled;
@@ -120,7 +121,9 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   RunReporter reporter(context, request, *problem);
   const RunResult result =
       run(smoother, *problem, positions,
-          {.iterations = request.iterations, .tolerance = request.settings.tolerance}, std::ref(reporter));
+          {.iterations = request.iterations,
+           .tolerance = request.kind == PartKind::polish ? kPolishTolerance : request.settings.tolerance},
+          std::ref(reporter));
   reporter.finish(positions);
   request.recording->trace().stopped = name_of(result.stopped);
   request.recording->trace().stopped_because = to_string(result.stopped);
@@ -208,7 +211,7 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     context.progress("Measuring the distance from the original", -1);
     const std::vector<Vec3>& start = document->mesh().positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
-    const double limit = automatic_limits(start, *problem, problem_options(settings)).widest;
+    const double limit = deviation_limit(settings, start, *problem);
     const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem).look(state->positions(), limit);
     context.publish(SurfaceMeasured{state->geometry, found.deviation, limit, found.turned_triangles});
   };

@@ -26,6 +26,7 @@ struct RunRequest {
   std::shared_ptr<Recording> recording;
   Place left;  ///< where a new one leaves another
   unsigned branch = 0;
+  PartKind kind = PartKind::solver;
   std::vector<Breakpoint> breakpoints;
   std::size_t step_budget = StepStore::kDefaultBudget;  ///< bytes of full step records
 };

@@ -27,12 +27,14 @@ void Recording::take(Trace trace, ReadAs as) {
   read_as_ = std::move(as);
 }
 
-void Recording::note_fresh_start(double exponent) {
+void Recording::note_fresh_start(PartKind kind, const SmoothingProblem& problem) {
   std::vector<TracePart>& parts = trace().parts;
   if (!parts.empty() && parts.back().done == size()) parts.pop_back();  // it made no step
   TracePart part;
   part.done = size();
-  part.exponent = exponent;
+  part.kind = kind;
+  part.exponent = problem.exponent;
+  if (problem.near) part.holds.distance = problem.near->distance;
   part.base = to_base_;
   parts.push_back(std::move(part));
 }

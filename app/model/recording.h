@@ -61,9 +61,9 @@ class Recording {
   /// Positions after so many iterations of the branch. Throws Error for a damaged delta.
   [[nodiscard]] std::vector<Vec3> positions_at(unsigned iteration);
 
-  /// A smoother that knows nothing of the steps before makes the next ones, with this exponent: a part of the
-  /// trace begins.
-  void note_fresh_start(double exponent);
+  /// A smoother that knows nothing of the steps before makes the next ones, of this kind, for this problem: a
+  /// part of the trace begins.
+  void note_fresh_start(PartKind kind, const SmoothingProblem& problem);
   /// Null for iterations of a smoother.
   std::shared_ptr<MotionTrack> motion;
 

@@ -102,7 +102,13 @@ StepMaking making_of(Workbench& bench, const DocumentPtr& document, const Smooth
   }
   making.problem = bench.problem(document, settings, recording != nullptr ? recording->base() : BasePtr());
   making.features = feature_options(settings);
-  making.smoother = [problem = making.problem, settings] { return make_smoother(*problem, settings); };
+  // All steps of a recording that grows are of one kind.
+  if (part == nullptr && recording != nullptr && recording->can_grow() && !recording->trace().parts.empty())
+    part = &recording->trace().parts.back();
+  const PartKind kind = part != nullptr ? part->kind : PartKind::solver;
+  making.smoother = [problem = making.problem, settings, kind] {
+    return make_smoother(*problem, settings, kind);
+  };
   return making;
 }
 

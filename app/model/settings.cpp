@@ -37,6 +37,20 @@ std::string_view method_option(Method method) {
   return "";
 }
 
+std::string_view polish_option(Polish polish) {
+  switch (polish) {
+    case Polish::none:
+      return "none";
+    case Polish::worst:
+      return "worst";
+    case Polish::mean:
+      return "mean";
+    case Polish::both:
+      return "both";
+  }
+  return "";
+}
+
 std::string_view title(Method method) {
   switch (method) {
     case Method::near_isometry:

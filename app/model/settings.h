@@ -20,6 +20,13 @@ enum class FeatureRule : std::uint8_t { automatic, none, angle };
 /// How vertices are told where to go: by the energy, or by what others do, to compare with.
 enum class Method : std::uint8_t { near_isometry, laplacian, angle_based };
 
+/// How far the surface may go from the mesh as opened: one of automatic_limits, any way, or a share of the
+/// bounding-box diagonal that stands beside it.
+enum class Reach : std::uint8_t { nearest, widest, any, typed };
+
+/// What a last stage raises after the run.
+enum class Polish : std::uint8_t { none, worst, mean, both };
+
 /// What a run does. Every field has an option of `isorelax smooth`.
 struct SmoothingSettings {
   Method method = Method::near_isometry;
@@ -32,8 +39,11 @@ struct SmoothingSettings {
   BoundaryRule boundary = BoundaryRule::fixed;
   FeatureRule features = FeatureRule::automatic;
   double feature_deg = 30;  ///< used with FeatureRule::angle
+  Reach reach = Reach::widest;
+  double max_deviation = 0.003;  ///< over the bounding-box diagonal; used with Reach::typed
   unsigned iterations = 1000;
-  double tolerance = 1e-6;    ///< relative; 0: only the iteration count stops the run
+  double tolerance = 1e-6;  ///< relative; 0: only the iteration count stops the run
+  Polish polish = Polish::none;
   std::vector<Index> pinned;  ///< vertices held by the user, ascending
 
   bool operator==(const SmoothingSettings&) const = default;
@@ -83,6 +93,8 @@ struct ViewSettings {
 [[nodiscard]] std::string_view solver_option(Solver solver);
 /// "near-isometry", "laplacian", "angle-based": as on the command line.
 [[nodiscard]] std::string_view method_option(Method method);
+/// "none", "worst", "mean", "both": as on the command line.
+[[nodiscard]] std::string_view polish_option(Polish polish);
 /// "Near-isometry", ...: a title for people.
 [[nodiscard]] std::string_view title(Method method);
 /// "Min angle", "Energy", ...: a title for people.

@@ -42,10 +42,15 @@ bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b) {
   SmoothingSettings other = b;
   other.iterations = a.iterations;
   other.tolerance = a.tolerance;
+  other.polish = a.polish;
   return a == other;
 }
 
-std::string branch_name(const SmoothingSettings& settings, const Branch* parent) {
+std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent) {
+  if (kind == PartKind::polish) {
+    constexpr std::array<std::string_view, 4> kGoals{"none", "worst angles", "mean", "worst angles, mean"};
+    return "Polish, " + std::string(kGoals.at(static_cast<std::size_t>(settings.polish)));
+  }
   if (parent == nullptr || parent->settings.method != settings.method)
     return std::string(title(settings.method));
   const SmoothingSettings& from = parent->settings;
@@ -65,6 +70,8 @@ std::string branch_name(const SmoothingSettings& settings, const Branch* parent)
     return "other features";
   else if (from.pinned != settings.pinned)
     return "other pins";
+  else if (from.reach != settings.reach || from.max_deviation != settings.max_deviation)
+    return "another distance";
   else
     return "again";
   return text.data();

@@ -42,6 +42,7 @@ struct Cursor {
 struct Branch {
   std::string name;
   SmoothingSettings settings;
+  PartKind kind = PartKind::solver;
   std::optional<unsigned> parent;   ///< the branch that it left
   unsigned start = 0;               ///< the iteration at which it left
   std::vector<IterationRow> rows;   ///< of iterations start, start + 1, ..., tip()
@@ -82,11 +83,11 @@ struct Timeline {
   [[nodiscard]] std::vector<IterationRow> rows(unsigned branch) const;
 };
 
-/// Whether both settings make the same steps: how many, and when to stop, aside.
+/// Whether both settings make the same steps: how many, when to stop, and what follows aside.
 [[nodiscard]] bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b);
 
-/// What a branch is called: its method, or what it does otherwise than the one it left.
-[[nodiscard]] std::string branch_name(const SmoothingSettings& settings, const Branch* parent);
+/// What a branch of this kind is called: its method, or what it does otherwise than the one it left.
+[[nodiscard]] std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent);
 
 /// Whether both make the same steps.
 [[nodiscard]] bool same_motion(const MotionChoices& a, const MotionChoices& b);

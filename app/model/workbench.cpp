@@ -6,6 +6,8 @@
 #include "mesh/error.h"
 #include "model/arguments.h"
 #include "smoothing/baselines.h"
+#include "smoothing/limit_choice.h"
+#include "smoothing/surface_watch.h"
 #include "trace/trace_parts.h"
 
 namespace isorelax::model {
@@ -20,6 +22,7 @@ SmoothingSettings problem_part(SmoothingSettings settings) {
   settings.tolerance = 0;
   settings.method = Method::near_isometry;
   settings.solver = Solver::automatic;
+  settings.polish = Polish::none;
   return settings;
 }
 
@@ -65,8 +68,46 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
   return options;
 }
 
-std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, const SmoothingSettings& settings) {
+double deviation_limit(const SmoothingSettings& settings, std::span<const Vec3> original,
+                       const SmoothingProblem& problem) {
+  switch (settings.reach) {
+    case Reach::any:
+      return std::numeric_limits<double>::infinity();
+    case Reach::typed:
+      return settings.max_deviation;
+    case Reach::nearest:
+    case Reach::widest:
+      break;
+  }
+  const AutomaticLimits limits = automatic_limits(original, problem, problem_options(settings));
+  return settings.reach == Reach::nearest ? limits.nearest : limits.widest;
+}
+
+namespace {
+
+PolishOptions polish_options(const SmoothingSettings& settings) {
+  PolishOptions options;
+  if (settings.polish == Polish::mean) options.goal = PolishGoal::mean;
+  if (settings.polish == Polish::both) options.goal = PolishGoal::both;
+  return options;
+}
+
+/// The problem with what keeps every step near the surface.
+SmoothingProblem make_near_problem(std::span<const Vec3> original, std::span<const Triangle> triangles,
+                                   const SmoothingSettings& settings) {
+  SmoothingProblem problem = make_problem(original, triangles, problem_options(settings));
+  const double limit = deviation_limit(settings, original, problem);
+  const double distance = SurfaceWatch(original, original, problem).largest_distance(limit);
+  hold(problem, {.still = {}, .distance = distance}, original);
+  return problem;
+}
+
+}  // namespace
+
+std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, const SmoothingSettings& settings,
+                                        PartKind kind) {
   constexpr RecordDetail kAll = RecordDetail::stages;
+  if (kind == PartKind::polish) return make_explained_polish(problem, polish_options(settings));
   switch (settings.method) {
     case Method::laplacian: {
       LaplacianOptions options;
@@ -86,7 +127,7 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, const S
 
 RunPlan plan_of(const SmoothingSettings& settings) {
   const auto make = [settings](const SmoothingProblem& problem) { return make_smoother(problem, settings); };
-  return {problem_options(settings), make, {}};
+  return {problem_options(settings), make, polish_options(settings)};
 }
 
 Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings,
@@ -101,8 +142,8 @@ Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const Smoo
     while (problems_.size() >= kProblemsKept) problems_.pop_back();
     const TriangleMesh& mesh = document->mesh();
     problems_.push_front({document, wanted, base,
-                          std::make_shared<const SmoothingProblem>(make_problem(
-                              base ? *base : mesh.positions, mesh.triangles, problem_options(settings)))});
+                          std::make_shared<const SmoothingProblem>(
+                              make_near_problem(base ? *base : mesh.positions, mesh.triangles, settings))});
   }
   return problems_.front().problem;
 }
@@ -154,13 +195,13 @@ Workbench::ProblemPtr Workbench::part_problem(const Recording& recording, std::s
   return problem;
 }
 
-Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings,
+Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings, PartKind kind,
                               Recording& recording) {
   if (smoother_ && recording_ == &recording && at_ > 0 && at_ == recording.size()) return *smoother_;
   smoother_.reset();
   smoothed_ = problem(document, settings, recording.base());
-  smoother_ = make_smoother(*smoothed_, settings);
-  recording.note_fresh_start(smoothed_->exponent);
+  smoother_ = make_smoother(*smoothed_, settings, kind);
+  recording.note_fresh_start(kind, *smoothed_);
   recording_ = &recording;
   at_ = recording.size();
   return *smoother_;

@@ -32,9 +32,10 @@ class Workbench {
   /// Throws Error. Precondition: it has plans.
   ProblemPtr part_problem(const Recording& recording, std::size_t part);
 
-  /// A smoother for the next step of a recording: the one that made its last step, or a new one, of which the
-  /// recording takes note. Throws Error.
-  Smoother& smoother(const DocumentPtr& document, const SmoothingSettings& settings, Recording& recording);
+  /// A smoother for the next step of a recording, all steps of which are of one kind: the one that made its
+  /// last step, or a new one, of which the recording takes note. Throws Error.
+  Smoother& smoother(const DocumentPtr& document, const SmoothingSettings& settings, PartKind kind,
+                     Recording& recording);
   /// The smoother has made the recording's last step.
   void went_on(const Recording& recording) { at_ = recording.size(); }
 
@@ -75,9 +76,16 @@ class Workbench {
   std::map<std::pair<const Recording*, unsigned>, std::weak_ptr<const Geometry>> geometries_;
 };
 
-/// A smoother on a problem that keeps all detail of its steps. Keeps a reference to the problem.
+/// A smoother on a problem that keeps all detail of its steps: what the settings name, or their polish. Keeps
+/// a reference to the problem.
 [[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem,
-                                                      const SmoothingSettings& settings);
+                                                      const SmoothingSettings& settings,
+                                                      PartKind kind = PartKind::solver);
+
+/// How far these settings let the surface go from `original`, over its bounding-box diagonal; infinite: any
+/// way.
+[[nodiscard]] double deviation_limit(const SmoothingSettings& settings, std::span<const Vec3> original,
+                                     const SmoothingProblem& problem);
 
 /// What a run with these settings is made with. Reads the reference file; throws Error.
 [[nodiscard]] RunPlan plan_of(const SmoothingSettings& settings);

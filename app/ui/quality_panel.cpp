@@ -274,12 +274,14 @@ std::string describe_last_run(const model::Session& session) {
   if (const model::Branch* branch = session.moving()) return branch->ended;
   if (!session.last_run) return {};
   const RunResult& run = *session.last_run;
+  const model::Branch* branch = session.timeline.current();
+  const bool polished = branch != nullptr && branch->kind == PartKind::polish;
   std::string text = !session.broken_by.empty()
                          ? "Stopped at iteration " + std::to_string(session.current->iteration) + ", where " +
                                session.broken_by
                      : run.stopped == StopReason::cancelled
                          ? "Paused after " + std::to_string(run.iterations) + " iterations"
-                         : "Stopped after " + std::to_string(run.iterations) +
+                         : (polished ? "Polished in " : "Stopped after ") + std::to_string(run.iterations) +
                                (run.iterations == 1 ? " iteration: " : " iterations: ") +
                                std::string(to_string(run.stopped));
   return session.last_step ? text + limits_sentence(*session.last_step) : text;

@@ -150,6 +150,50 @@ void draw_features(const Ui& ui) {
   mark(ui, "feature-angle");
 }
 
+void draw_reach(const Ui& ui) {
+  constexpr std::array<std::string_view, 4> kLabels{"Near", "Wide", "Any", "Typed"};
+  constexpr const char* kTip =
+      "How far the surface may go from the mesh as opened. Near: the mean of edge length times dihedral "
+      "angle; "
+      "wide: 0.3 % of the diagonal, more where the mesh is coarse; any: all the way; or typed.";
+  row_label(ui, "Stay within", kTip);
+  SmoothingSettings settings = ui.session.smoothing;
+  const int choice =
+      segmented(ui, "reach", kLabels, static_cast<int>(settings.reach), ImGui::GetContentRegionAvail().x);
+  if (choice >= 0) {
+    settings.reach = static_cast<model::Reach>(choice);
+    change(ui, settings, "Stay within");
+  }
+  if (settings.reach != model::Reach::typed) return;
+  row_label(ui, "Distance",
+            "Largest distance from the mesh as opened, in percent of its bounding-box diagonal.");
+  double percent = 100 * settings.max_deviation;
+  if (ImGui::InputDouble("##max-deviation", &percent, 0, 0, "%.4g %%",
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsScientific) &&
+      percent >= 0) {
+    settings.max_deviation = percent / 100;
+    change(ui, settings, "Distance");
+  }
+  end_edit_after_item(ui);
+  mark(ui, "max-deviation");
+}
+
+void draw_polish(const Ui& ui) {
+  constexpr std::array<std::string_view, 4> kLabels{"Off", "Worst", "Mean", "Both"};
+  constexpr const char* kTip =
+      "A last stage after the run, as a branch of its own. Worst: raises the smallest angles and lowers the "
+      "largest, the worst triangles first. Mean: raises the mean of the triangles' smallest angles, while "
+      "the "
+      "worst stay as good as they are. Both: one after the other.";
+  row_label(ui, "Polish", kTip);
+  SmoothingSettings settings = ui.session.smoothing;
+  const int choice =
+      segmented(ui, "polish", kLabels, static_cast<int>(settings.polish), ImGui::GetContentRegionAvail().x);
+  if (choice < 0) return;
+  settings.polish = static_cast<model::Polish>(choice);
+  change(ui, settings, "Polish");
+}
+
 void draw_iterations(const Ui& ui) {
   SmoothingSettings settings = ui.session.smoothing;
   row_label(ui, "Iterations", "How many steps a run may do.");
@@ -232,21 +276,21 @@ void draw_run_buttons(const Ui& ui) {
           : moves        ? "Carry the surface to the end of its time."
                          : "Smooth up to the number of iterations.",
           keys_of(Action::run_pause));
-  const float half = std::floor(0.5F * (width - gap));
-  if (button(ui, "step", "Step", {.icon = Icon::step, .width = half, .height = height, .enabled = can_run}))
+  const float each = std::floor((width - 2 * gap) / 3);
+  if (button(ui, "step", "Step", {.icon = Icon::step, .width = each, .height = height, .enabled = can_run}))
     perform(ui, Action::step);
   tooltip(ui, moves ? "One time step." : "One iteration.", keys_of(Action::step));
   ImGui::SameLine(0, gap);
   const bool moved = s.current && s.current->geometry != s.original->geometry;
-  if (button(ui, "reset", "Reset",
-             {.icon = Icon::reset, .width = width - gap - half, .height = height, .enabled = moved}))
+  if (button(ui, "reset", "Reset", {.icon = Icon::reset, .width = each, .height = height, .enabled = moved}))
     perform(ui, Action::reset);
   tooltip(ui, "Back to the mesh as opened. Can be undone.", keys_of(Action::reset));
-  if (button(
-          ui, "copy-command-line", "Copy as command line",
-          {.look = ButtonLook::quiet, .width = width, .height = ui.px(26), .enabled = s.document != nullptr}))
+  ImGui::SameLine(0, gap);
+  if (button(ui, "copy-command-line", "Copy CLI",
+             {.width = width - 2 * (gap + each), .height = height, .enabled = s.document != nullptr}))
     perform(ui, Action::copy_command_line);
-  tooltip(ui, "The same for a shell.", keys_of(Action::copy_command_line));
+  tooltip(ui, "Copy these settings as a command line: the same for a shell.",
+          keys_of(Action::copy_command_line));
 }
 
 void draw_range(const Ui& ui, model::ViewSettings& view) {
@@ -294,6 +338,7 @@ void draw_display(const Ui& ui) {
 
 void draw_settings_panel(const Ui& ui, const Rect& rect) {
   begin_panel("settings", rect);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.px(5)});
   draw_task(ui);
   if (ui.session.task == model::Task::move) {
     draw_motion_settings(ui);
@@ -304,12 +349,15 @@ void draw_settings_panel(const Ui& ui, const Rect& rect) {
     draw_reference(ui);
     draw_boundary(ui);
     draw_features(ui);
+    draw_reach(ui);
     draw_iterations(ui);
+    draw_polish(ui);
     ImGui::EndDisabled();
   }
   draw_run_buttons(ui);
   heading(ui, "COLOURS");
   draw_display(ui);
+  ImGui::PopStyleVar();
   ImGui::End();
 }
 

@@ -163,7 +163,10 @@ AutomaticLimits limits_of(std::span<const Vec3> positions, const SmoothingProble
                           const ProblemOptions& options, const DeviationLimit& limit) {
   if (limit.max) return {*limit.max, *limit.max};
   AutomaticLimits limits = automatic_limits(positions, problem, options);
-  if (problem.exponent > kDefaultExponent) limits.nearest = limits.widest;
+  const bool only_widest = limit.automatic == AutomaticLimit::widest ||
+                           (limit.automatic == AutomaticLimit::either && problem.exponent > kDefaultExponent);
+  if (only_widest) limits.nearest = limits.widest;
+  if (limit.automatic == AutomaticLimit::nearest) limits.widest = limits.nearest;
   return limits;
 }
 

@@ -7,11 +7,18 @@
 
 namespace isorelax {
 
+/// Which of automatic_limits holds where none is stated.
+enum class AutomaticLimit : std::uint8_t {
+  either,  ///< the nearest, or the widest where that pays; the last stage has the widest
+  nearest,
+  widest,
+};
+
 /// How far a result may be from the surface it came from.
 struct DeviationLimit {
-  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit. None: the
-  /// nearest of automatic_limits, or the widest where that pays. The last stage has the widest.
+  /// Largest distance, both ways, over the input's bounding-box diagonal; infinite: no limit.
   std::optional<double> max;
+  AutomaticLimit automatic = AutomaticLimit::either;  ///< without `max`
 };
 
 /// What the last stage raises: the worst angles, the mean of the triangles' smallest angles, or the mean

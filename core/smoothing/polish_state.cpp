@@ -45,6 +45,15 @@ void PolishState::start(std::span<const Vec3> positions) {
     for (std::size_t t = begin; t < end; ++t) measure(static_cast<Index>(t));
   });
   surface_.start(x_);
+  changed_at_.assign(problem_.vertex_count(), ++clock_);
+  stuck_at_.assign(problem_.vertex_count(), 0);
+}
+
+/// Of a vertex: everything that can be seen from a neighbour.
+void PolishState::note_change(Index vertex) {
+  ++clock_;
+  for (const Corner c : problem_.topology.corners_of(vertex))
+    for (const Index v : problem_.triangles[c / 3]) changed_at_[v] = clock_;
 }
 
 void PolishState::measure(Index triangle) {
@@ -142,6 +151,7 @@ double PolishState::move(Index vertex, const Vec3& there) {
   x_[vertex] = there;
   const auto ranges = ring_.ranges(there);
   for (std::size_t i = 0; i < ranges.size(); ++i) ranges_[ring_.triangles()[i]] = ranges[i];
+  note_change(vertex);
   return distance;
 }
 
@@ -155,7 +165,9 @@ std::vector<Index> PolishState::settle(std::span<const Vec3> positions, StepReco
     if (!(squared > 0)) continue;
     largest = std::max(largest, squared);
     ++record.moved;
-    x_[v] = positions[v] + record.displacement[v];
+    const Vec3 rounded = positions[v] + record.displacement[v];
+    if (rounded != x_[v]) note_change(v);
+    x_[v] = rounded;
     for (const Corner c : problem_.topology.corners_of(v)) changed.push_back(c / 3);
   }
   record.largest_move = std::sqrt(largest);

@@ -44,12 +44,18 @@ class PolishState {
   /// Moves the looked-at vertex. Returns how far.
   double move(Index vertex, const Vec3& there);
 
+  /// Notes that no climb of the looked-at vertex leads anywhere. One that asks for no more need not be tried
+  /// before something around the vertex has changed.
+  void note_stuck(Index vertex) { stuck_at_[vertex] = clock_; }
+  [[nodiscard]] bool is_stuck(Index vertex) const { return stuck_at_[vertex] >= changed_at_[vertex]; }
+
   /// Says in the record how all vertices got here from `positions`, and is from now on where the record
   /// leads: the same up to rounding. Returns the triangles that have changed.
   std::vector<Index> settle(std::span<const Vec3> positions, StepRecord& record);
 
  private:
   void measure(Index triangle);
+  void note_change(Index vertex);
   [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
   /// Without turning a triangle over, and within all bounds.
   [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
@@ -61,6 +67,8 @@ class PolishState {
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
   std::uint16_t held_back_ = 0;
+  std::uint64_t clock_ = 0;  // changes so far
+  std::vector<std::uint64_t> changed_at_, stuck_at_;
 };
 
 /// One goal of the last stage, sweep by sweep.

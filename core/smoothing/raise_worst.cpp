@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "smoothing/polish_state.h"
 
@@ -8,13 +9,12 @@ namespace {
 
 /// Sharpness of the soft minimum, per degree, stage by stage.
 constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
-/// A stage ends after this many steps, or when in this many in a row no vertex moves by more than kIdleMove
-/// mean edges and neither of the worst angles gains kGain degrees. All end after kMostSteps.
+/// A stage ends after this many steps, or when in this many in a row neither of the worst angles, nor the
+/// soft minimum of all scores, gains kGain degrees. All end after kMostSteps.
 constexpr unsigned kStageSteps = 60;
 constexpr unsigned kPolishIdleSteps = 5;
 constexpr unsigned kMostSteps = 300;
-constexpr double kIdleMove = 1e-3;
-constexpr double kGain = 0.005;
+constexpr double kGain = 0.002;
 /// Triangles within this many degrees of the worst are treated; halved where the mean would fall too
 /// far, down to the least.
 constexpr double kWindow = 5;
@@ -49,6 +49,7 @@ class RaiseWorst : public PolishGoalSweeps {
   bool sweep_once(PolishState& state) {
     worst_ = state.worst();
     const AngleRange before = worst_;
+    const double merit_before = merit(state);
     double largest = 0;
     for (const Index v : vertices_in_order(state)) largest = std::max(largest, visit(state, v));
     worst_ = state.worst();
@@ -59,7 +60,7 @@ class RaiseWorst : public PolishGoalSweeps {
       return false;
     }
     const bool gained = worst_.min > before.min + kGain || worst_.max < before.max - kGain;
-    const bool idle = largest < kIdleMove * state.problem().mean_edge_length && !gained;
+    const bool idle = !gained && merit(state) < merit_before + kGain;
     idle_ = idle ? idle_ + 1 : 0;
     if (largest > 0 && ++steps_ < kStageSteps && idle_ < kPolishIdleSteps) return true;
     ++stage_;
@@ -78,6 +79,20 @@ class RaiseWorst : public PolishGoalSweeps {
   [[nodiscard]] double lead(const AngleRange& range) const {
     return std::min(goal_->of_small(range.min) - goal_->of_small(worst_.min),
                     goal_->of_large(range.max) - goal_->of_large(worst_.max));
+  }
+
+  /// The soft minimum of the scores of all triangles, in degrees, as sharp as this stage.
+  [[nodiscard]] double merit(const PolishState& state) const {
+    const double sharpness = kSharpness.at(stage_);
+    double sum = 0;
+    const double worst = std::min(goal_->of_small(worst_.min), goal_->of_large(worst_.max));
+    for (Index t = 0; t < state.problem().triangle_count(); ++t) {
+      if (!state.can_change(t)) continue;
+      const AngleRange& range = state.range(t);
+      const double score = std::min(goal_->of_small(range.min), goal_->of_large(range.max));
+      sum += std::exp(-sharpness * (score - worst));
+    }
+    return worst - std::log(sum) / sharpness;
   }
 
   /// Free vertices of the triangles to be treated, those of the worst triangles first.
@@ -101,6 +116,7 @@ class RaiseWorst : public PolishGoalSweeps {
 
   /// Moves a vertex to where the triangles around it are better, if it can. Returns how far.
   double visit(PolishState& state, Index v) {
+    if (state.is_stuck(v)) return 0;  // with sharper minima, too
     AngleRing& ring = state.look_at(v);
     ring.aim_at(*goal_);
     const Vec3 start = state.positions()[v];
@@ -110,7 +126,9 @@ class RaiseWorst : public PolishGoalSweeps {
       for (unsigned i = 0; i < kStepsPerVisit; ++i)
         if (!climb(state, ring, v, kSharpness[s], at)) break;
     }
-    return at == start ? 0 : state.move(v, at);
+    if (at != start) return state.move(v, at);
+    state.note_stuck(v);
+    return 0;
   }
 
   /// One step of a vertex from `at` to a higher soft minimum. False if there is none.

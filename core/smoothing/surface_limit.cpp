@@ -287,18 +287,20 @@ bool SurfaceLimit::keeps(std::span<const Vec3> x, Index vertex) {
   travelled_[vertex] += (x[vertex] - last_[vertex]).norm();
   if (foot.triangle != kNone) feet_now_[vertex] = foot_of(true, x, vertex);
   std::vector<std::pair<Index, Line>> before;
-  bool kept = true;
-  for (const Index id : lines_of_[vertex]) {
-    if (is_near_still(lines_[id])) continue;
+  const auto is_kept = [&](Index id) {
+    if (is_near_still(lines_[id])) return true;
     before.emplace_back(id, lines_[id]);
     const auto& [a, b] = ends_of_[id];
     measure(id, x,
             is_of_now(id) ? std::array{feet_now_[a], feet_now_[b]}
                           : std::array{foot_of(false, x, a), foot_of(false, x, b)});
-    kept = lines_[id].bound <= proven_;
-    if (!kept) break;
-  }
-  if (!kept) {
+    return lines_[id].bound <= proven_;
+  };
+  std::vector<Index>& lines = lines_of_[vertex];
+  const auto broken = std::ranges::find_if_not(lines, is_kept);
+  if (broken != lines.end()) {
+    // What held it back will most likely hold it back again.
+    std::rotate(lines.begin(), broken, std::next(broken));
     for (auto& [id, line] : before) lines_[id] = std::move(line);
     feet_now_[vertex] = foot;
     travelled_[vertex] = travelled;
@@ -307,8 +309,8 @@ bool SurfaceLimit::keeps(std::span<const Vec3> x, Index vertex) {
   last_[vertex] = x[vertex];
   for (const auto& [id, line] : before) {
     for (const Use& use : lines_[id].uses) {
-      std::vector<Index>& lines = lines_of_[use.vertex];
-      if (std::ranges::find(lines, id) == lines.end()) lines.push_back(id);
+      std::vector<Index>& users = lines_of_[use.vertex];
+      if (std::ranges::find(users, id) == users.end()) users.push_back(id);
     }
   }
   return true;

@@ -7,8 +7,7 @@
 namespace isorelax {
 namespace {
 
-/// A polish whose records say as much as those of the solvers: it is not led by the energy, and leaves out
-/// what belongs to it.
+/// A polish is not led by the energy, and leaves out of its records what belongs to it.
 class ExplainedPolish : public Smoother {
  public:
   ExplainedPolish(const SmoothingProblem& problem, const PolishOptions& options)
@@ -55,9 +54,14 @@ SmoothingProblem make_part_problem(const Trace& trace, const TracePart& part, co
   return make_problem(base_of(trace, part), trace.triangles, options);
 }
 
+std::unique_ptr<Smoother> make_explained_polish(const SmoothingProblem& problem,
+                                                const PolishOptions& options) {
+  return std::make_unique<ExplainedPolish>(problem, options);
+}
+
 std::unique_ptr<Smoother> make_part_smoother(const SmoothingProblem& problem, const TracePart& part,
                                              const RunPlan& plan) {
-  if (part.kind == PartKind::polish) return std::make_unique<ExplainedPolish>(problem, plan.polish);
+  if (part.kind == PartKind::polish) return make_explained_polish(problem, plan.polish);
   return plan.make_smoother(problem);
 }
 

@@ -26,8 +26,12 @@ using PlanReader = std::function<RunPlan(const RunWords& words, const TriangleMe
 [[nodiscard]] SmoothingProblem make_part_problem(const Trace& trace, const TracePart& part,
                                                  const RunPlan& plan);
 
-/// A smoother for the first step of a part. Those of a polish fill the gradients, the triangles and the
-/// stages of their records as well. Keeps a reference to the problem.
+/// make_polish with records that say as much as those of the solvers: gradients, triangles and stages, too.
+[[nodiscard]] std::unique_ptr<Smoother> make_explained_polish(const SmoothingProblem& problem,
+                                                              const PolishOptions& options);
+
+/// A smoother for the first step of a part; of a polish, make_explained_polish. Keeps a reference to the
+/// problem.
 [[nodiscard]] std::unique_ptr<Smoother> make_part_smoother(const SmoothingProblem& problem,
                                                            const TracePart& part, const RunPlan& plan);
 

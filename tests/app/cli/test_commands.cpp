@@ -51,13 +51,14 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   const std::string smooth =
       "smooth " + workspace.write("t.off", kTriangle) + " -o " + workspace.path("o.off");
   for (const char* option : {" --mu nan", " --tolerance nan", " --tolerance inf", " --relaxation nan",
-                             " --max-deviation nan", " --max-deviation -1"}) {
+                             " --max-deviation nan", " --max-deviation -1", " --max-deviation far"}) {
     const Outcome outcome = run_program(smooth + option);
     EXPECT_EQ(outcome.status, 2) << option;
     expect_one_error_line(outcome);
     EXPECT_LT(outcome.err.size(), 160U) << outcome.err;
   }
-  EXPECT_EQ(run_program(smooth + " --max-deviation inf").status, 0);
+  for (const char* limit : {"inf", "nearest", "widest"})
+    EXPECT_EQ(run_program(smooth + " --max-deviation " + limit).status, 0) << limit;
 }
 
 TEST(SmoothCommand, WritesNothingWhenAnUnguardedMethodTurnedTrianglesOver) {

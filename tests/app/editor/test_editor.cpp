@@ -84,6 +84,21 @@ TEST_F(EditorTest, StatesLookAsAccepted) {
   press(ui::Key::escape);
 }
 
+TEST_F(EditorTest, OneClickRunsAndPolishesWithinATypedDistance) {
+  open(folder.make_square());
+  click("reach/Typed");
+  click("max-deviation");
+  type("0.2");
+  press(ui::Key::enter);
+  EXPECT_EQ(editor.session().smoothing.reach, model::Reach::typed);
+  EXPECT_NEAR(editor.session().smoothing.max_deviation, 0.002, 1e-12);
+  click("polish/Both");
+  click("run");
+  ASSERT_EQ(editor.session().timeline.branches.size(), 2U);
+  EXPECT_EQ(editor.session().timeline.branches[1].kind, PartKind::polish);
+  keep("polished");
+}
+
 TEST_F(EditorTest, ATooltipAppearsWhereThePointerRests) {
   open(folder.make_square());
   const Image below = part("reset");

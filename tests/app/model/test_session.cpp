@@ -113,14 +113,23 @@ TEST_F(SessionTest, TheEndOfARunTellsHowFarTheSurfaceWent) {
   EXPECT_LT(session.surface->deviation.max, 1e-9) << "faces and edges of a cube are kept";
   EXPECT_TRUE(session.surface->deviation.has_volume);
   EXPECT_EQ(warnings(), 0);
-  // Without features corners are cut.
+  // Without features corners are cut, as far as they may go.
   SmoothingSettings settings = session.smoothing;
   settings.features = FeatureRule::none;
+  settings.reach = Reach::any;
   do_and_wait(SetSmoothing{settings, "Features"});
   run(10);
   ASSERT_EQ(session.surface->geometry, session.current->geometry);
-  EXPECT_GT(session.surface->deviation.max, session.surface->limit);
-  EXPECT_EQ(warnings(), 1) << last_message();
+  const double far = session.surface->deviation.max;
+  EXPECT_GT(far, 0.005);
+  settings.reach = Reach::typed;
+  settings.max_deviation = 0.005;
+  do_and_wait(Reset{});
+  do_and_wait(SetSmoothing{settings, "Stay within"});
+  run(10);
+  EXPECT_LE(session.surface->deviation.max, 0.005);
+  EXPECT_GT(session.surface->deviation.max, 0.0025);
+  EXPECT_EQ(warnings(), 0) << last_message();
 }
 
 TEST_F(SessionTest, PositionsAndSettingsAreUndoneSeparately) {

@@ -72,6 +72,18 @@ TEST(LimitChoice, ASphereStaysNearSinceThatCostsNothing) {
   EXPECT_GT(chosen.quality.mean_min_angle_deg, wide.quality.mean_min_angle_deg - 0.1);
 }
 
+TEST(LimitChoice, EitherLimitCanBeAskedFor) {
+  const AutomaticLimits limits = limits_of(bump());
+  ASSERT_LT(limits.nearest, limits.widest);
+  for (const auto& [asked, expected] : {std::pair(AutomaticLimit::nearest, limits.nearest),
+                                        std::pair(AutomaticLimit::widest, limits.widest)}) {
+    const Smoothed smoothed = smooth(bump(), {.max = {}, .automatic = asked});
+    EXPECT_EQ(smoothed.attempts, 1U);
+    EXPECT_EQ(smoothed.result.deviation_limit, expected);
+    EXPECT_LE(smoothed.result.deviation.max, expected);
+  }
+}
+
 TEST(LimitChoice, ABumpGetsTheWiderLimitSinceThatPays) {
   const Smoothed near = smooth(bump(), {limits_of(bump()).nearest});
   const Smoothed wide = smooth(bump(), {0.003});

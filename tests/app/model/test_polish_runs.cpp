@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "app/temporary_mesh.h"
+#include "generate/generate.h"
+#include "io/mesh_file.h"
+#include "model/arguments.h"
+#include "model/command.h"
+#include "smoothing/bounded_run.h"
+
+namespace isorelax::model {
+namespace {
+
+/// Runs that a last stage follows, and runs that keep a distance.
+class PolishRunTest : public ::testing::Test {
+ protected:
+  void act(const Command& command) {
+    execute(session, command);
+    finish(session);
+  }
+  void set(const std::function<void(SmoothingSettings&)>& change) {
+    SmoothingSettings settings = session.smoothing;
+    change(settings);
+    act(SetSmoothing{settings, "test"});
+  }
+  void open_torus() {
+    const std::filesystem::path path = folder / "torus.off";
+    (void)write_mesh(path, torus);
+    act(OpenFile{path});
+  }
+  [[nodiscard]] std::vector<Vec3> shown() const {
+    const auto x = session.current->positions();
+    return {x.begin(), x.end()};
+  }
+  [[nodiscard]] const Timeline& timeline() const { return session.timeline; }
+
+  TriangleMesh torus = generate(ShapeKind::torus, {.seed = 3, .triangles = 240, .jitter = 0.3});
+  test::TemporaryFolder folder;
+  Session session;
+};
+
+TEST_F(PolishRunTest, APolishFollowsTheRunAsABranchOfItsOwn) {
+  act(OpenFile{folder.make_square(400)});
+  set([](SmoothingSettings& s) { s.polish = Polish::worst; });
+  act(model::Run{});
+  ASSERT_EQ(timeline().branches.size(), 2U);
+  const Branch& polish = timeline().branches[1];
+  EXPECT_EQ(polish.kind, PartKind::polish);
+  EXPECT_EQ(polish.parent, 0U);
+  EXPECT_EQ(polish.start, timeline().branches[0].tip());
+  EXPECT_EQ(polish.name, "Polish, worst angles");
+  EXPECT_EQ(timeline().cursor.branch, 1U);
+  const double polished = session.current->quality().min_angle_deg;
+  act(Undo{});
+  EXPECT_EQ(session.current->iteration, polish.start) << "the polish is undone by itself";
+  EXPECT_GT(polished, session.current->quality().min_angle_deg + 0.5);
+}
+
+TEST_F(PolishRunTest, TheStatesAreThoseOfABoundedRunToTheBit) {
+  open_torus();
+  set([](SmoothingSettings& s) {
+    s.polish = Polish::both;
+    s.reach = Reach::nearest;
+  });
+  act(model::Run{});
+  std::vector<Vec3> positions = torus.positions;
+  ProblemOptions options;
+  options.exponent = session.smoothing.exponent;
+  run_bounded(
+      positions, torus.triangles, options,
+      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
+      {.max = {}, .automatic = AutomaticLimit::nearest}, {}, PolishOptions{.goal = PolishGoal::both});
+  EXPECT_TRUE(std::ranges::equal(shown(), positions));
+}
+
+TEST_F(PolishRunTest, OneStepIsNotPolishedAndAPolishGoesOnStepByStep) {
+  act(OpenFile{folder.make_square(400)});
+  set([](SmoothingSettings& s) {
+    s.polish = Polish::worst;
+    s.iterations = 15;
+  });
+  act(Step{});
+  EXPECT_EQ(timeline().branches.size(), 1U);
+  act(SetBreakpoints{{make_breakpoint("iteration == 20", BreakAction::stop)}});
+  act(model::Run{});
+  EXPECT_EQ(session.current->iteration, 20U) << "in the middle of the polish";
+  ASSERT_EQ(timeline().branches.size(), 2U);
+  act(Step{});
+  EXPECT_EQ(session.current->iteration, 21U);
+  act(model::Run{});
+  EXPECT_EQ(timeline().branches.size(), 2U) << "one polish, broken off and continued";
+  const std::vector<Vec3> broken_off = shown();
+  act(Reset{});
+  act(SetBreakpoints{{}});
+  set([](SmoothingSettings& s) { s.iterations = 16; });
+  session.timeline = {};
+  act(model::Run{});
+  EXPECT_EQ(shown(), broken_off);
+}
+
+TEST_F(PolishRunTest, ARunThatHasEndedIsPolishedWithoutAnotherStep) {
+  act(OpenFile{folder.make_square(400)});
+  act(model::Run{});
+  const unsigned end = timeline().last();
+  set([](SmoothingSettings& s) { s.polish = Polish::mean; });
+  act(model::Run{});
+  ASSERT_EQ(timeline().branches.size(), 2U);
+  EXPECT_EQ(timeline().branches[1].start, end);
+  EXPECT_EQ(timeline().branches[1].name, "Polish, mean");
+  // Going back over it and on again makes nothing anew.
+  const unsigned last = timeline().last();
+  act(Seek{end, {}});
+  act(model::Run{});
+  EXPECT_EQ(session.current->iteration, last);
+  EXPECT_EQ(timeline().branches.size(), 2U);
+}
+
+TEST_F(PolishRunTest, ItsStepsAreExplainedDoneAgainAndSaved) {
+  act(OpenFile{folder.make_square(400)});
+  act(SetStepBudget{0});
+  set([](SmoothingSettings& s) { s.polish = Polish::both; });
+  act(model::Run{});
+  const unsigned start = timeline().branches[1].start;
+  act(SelectVertex{130});
+  for (const unsigned k : {start, start + 2, timeline().last()}) {
+    act(Seek{k, {}});
+    ASSERT_TRUE(session.inspection.step && session.inspection.vertex) << k;
+    EXPECT_EQ(session.inspection.step->mismatch, "") << k;
+  }
+  act(SaveTrace{folder / "polished.trace"});
+  Session other;
+  execute(other, OpenFile{folder / "polished.trace"});
+  finish(other);
+  EXPECT_EQ(other.smoothing, session.smoothing);
+  execute(other, SelectVertex{130});
+  execute(other, Seek{start + 2, {}});
+  finish(other);
+  ASSERT_TRUE(other.inspection.step) << other.messages.back().text;
+  EXPECT_EQ(other.inspection.step->mismatch, "");
+  EXPECT_NE(other.inspection.step->made_with.find("polish"), std::string::npos);
+}
+
+TEST_F(PolishRunTest, EveryStepKeepsTheDistanceAndSaysWhomItHeldBack) {
+  open_torus();
+  double before = 1;
+  for (const double limit : {0.01, 0.004}) {
+    set([&](SmoothingSettings& s) {
+      s.reach = Reach::typed;
+      s.max_deviation = limit;
+      s.polish = Polish::worst;
+    });
+    act(model::Run{});
+    ASSERT_TRUE(session.surface && session.last_step);
+    EXPECT_EQ(session.surface->limit, limit);
+    EXPECT_LE(session.surface->deviation.max, limit);
+    EXPECT_LT(session.surface->deviation.max, before);
+    before = session.surface->deviation.max;
+    act(Seek{2, {}});
+    EXPECT_GT(session.last_step->limits[6], 0U) << "of Limit: surface";
+    act(Reset{});
+  }
+}
+
+TEST_F(PolishRunTest, WordsReadBackAsTheSettings) {
+  SmoothingSettings settings;
+  for (const Polish polish : {Polish::none, Polish::worst, Polish::mean, Polish::both}) {
+    for (const Reach reach : {Reach::nearest, Reach::widest, Reach::any, Reach::typed}) {
+      settings.polish = polish;
+      settings.reach = reach;
+      settings.max_deviation = reach == Reach::typed ? 0.0125 : SmoothingSettings().max_deviation;
+      const auto words = to_words(settings);
+      ASSERT_TRUE(from_words(words));
+      EXPECT_EQ(*from_words(words), settings);
+    }
+  }
+  EXPECT_FALSE(from_words(std::vector<std::string>{"--polish", "all"}));
+  EXPECT_FALSE(from_words(std::vector<std::string>{"--max-deviation", "far"}));
+  EXPECT_FALSE(from_words(std::vector<std::string>{"--max-deviation", "-1"}));
+}
+
+}  // namespace
+}  // namespace isorelax::model
