@@ -43,7 +43,8 @@ std::string parting_text(const TraceParting& parting) {
 /// A right-aligned table of the iterations, one line each.
 std::string iteration_table(const Trace& trace) {
   std::string text =
-      "  iter        energy  smallest   largest      mean   moved  largest move  passes  limited\n";
+      "  iter        energy  smallest   largest      mean   moved  largest move  passes  step          "
+      "limited\n";
   const auto line = [&](std::size_t k, double energy, const TraceQuality& quality, const std::string& rest) {
     std::array<char, 128> buffer{};
     std::snprintf(buffer.data(), buffer.size(), "%6zu  %12.6g  %7.3f°  %7.3f°  %7.3f°", k, energy,
@@ -55,8 +56,9 @@ std::string iteration_table(const Trace& trace) {
   for (std::size_t k = 1; k <= trace.iterations.size(); ++k) {
     const TraceIteration& one = trace.iterations[k - 1];
     std::array<char, 96> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "  %6zu  %12.4g  %3zu+%-2zu ", one.moved, one.largest_move,
-                  one.fold_passes, one.energy_passes);
+    std::snprintf(buffer.data(), buffer.size(), "  %6zu  %12.4g  %3zu+%-2zu  %-12s ", one.moved,
+                  one.largest_move, one.fold_passes, one.energy_passes,
+                  std::string(step_kind_name(one.kind)).c_str());
     std::string limits;
     for (std::size_t bit = 0; bit < one.limits.size(); ++bit) {
       if (one.limits[bit] == 0) continue;

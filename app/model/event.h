@@ -34,6 +34,7 @@ struct IterationRow {
 /// What the last step's record says, without its arrays.
 struct StepSummary {
   unsigned iteration = 0;
+  StepKind kind = StepKind::unknown;
   StepTotals before, after;
   std::array<std::size_t, 8> limits{};  ///< vertices per bit of Limit
   std::size_t moved = 0;

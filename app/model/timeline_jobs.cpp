@@ -53,8 +53,16 @@ MeshStatePtr state_before(const JobContext& context, const InspectRequest& reque
 }  // namespace
 
 StepSummary summary_of(const StepRecord& record, unsigned iteration, std::size_t vertices) {
-  return {iteration, record.before,       record.after,       count_limits(record.limits), record.moved,
-          vertices,  record.largest_move, record.fold_passes, record.energy_passes};
+  return {.iteration = iteration,
+          .kind = record.kind,
+          .before = record.before,
+          .after = record.after,
+          .limits = count_limits(record.limits),
+          .moved = record.moved,
+          .vertices = vertices,
+          .largest_move = record.largest_move,
+          .fold_passes = record.fold_passes,
+          .energy_passes = record.energy_passes};
 }
 
 Engine::Job seek_job(SeekRequest request) {

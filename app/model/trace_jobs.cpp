@@ -34,15 +34,16 @@ void add_parts(Trace& whole, const Trace& segment, std::size_t last, std::size_t
 }
 
 StepSummary recorded_summary(const TraceIteration& step, unsigned iteration, std::size_t vertices) {
-  return {iteration,
-          step.before,
-          step.after,
-          step.limits,
-          step.moved,
-          vertices,
-          step.largest_move,
-          static_cast<unsigned>(step.fold_passes),
-          static_cast<unsigned>(step.energy_passes)};
+  return {.iteration = iteration,
+          .kind = step.kind,
+          .before = step.before,
+          .after = step.after,
+          .limits = step.limits,
+          .moved = step.moved,
+          .vertices = vertices,
+          .largest_move = step.largest_move,
+          .fold_passes = static_cast<unsigned>(step.fold_passes),
+          .energy_passes = static_cast<unsigned>(step.energy_passes)};
 }
 
 /// Whether the energy gets another meaning with the step to this iteration.

@@ -9,6 +9,21 @@
 namespace isorelax::ui {
 namespace {
 
+constexpr std::array<std::string_view, kStepKinds> kStepTips{
+    "",
+    "The paper's step: along the gradient, by as much as the size of the triangles allows.",
+    "Newton's step of each vertex: the gradient through the inverse of its own block of second derivatives.",
+    "A step of all vertices together, by what the steps before tell of how gradients change (L-BFGS).",
+    "Twenty sweeps to the means of the neighbours: it does not follow the gradient, and nothing moves where "
+    "the energy would rise.",
+    "One vertex after the other, each downhill from where those before it are by then: where many are at the "
+    "limit of the distance.",
+    "Laplacian smoothing: to the mean of the neighbours. It does not follow the gradient.",
+    "Angle-based smoothing: to where the angles about the vertex are alike. It does not follow the gradient.",
+    "Of the polish: it raises the smallest angles and lowers the largest, not the energy.",
+    "Of the polish: it raises the mean of the triangles' smallest angles, not the energy.",
+};
+
 // A field for text with a hint; true when Enter ends it.
 bool text_field(const Ui& ui, const char* name, const char* hint, std::string& text, float width) {
   std::array<char, 256> buffer{};
@@ -68,6 +83,16 @@ std::string step_text(const model::Session& s) {
   return s.timeline.empty() ? "The step that would be the first" : "The first step";
 }
 
+// What made it; the pointer on it tells more.
+void draw_step_line(const Ui& ui, const std::string& rest) {
+  const auto& step = ui.session.inspection.step;
+  const StepKind kind = step ? step->record->kind : StepKind::unknown;
+  std::string text = step_text(ui.session);
+  if (kind != StepKind::unknown) text += "   \xC2\xB7   " + std::string(step_kind_name(kind));
+  text_in(ui.fonts.small, color::kTextFaint, text + rest);
+  tooltip(ui, kStepTips.at(static_cast<std::size_t>(kind)));
+}
+
 void draw_title(const Ui& ui, const std::string& text) {
   ImGui::Dummy({0, ui.px(2)});
   text_in(ui.fonts.title, color::kText, text);
@@ -95,7 +120,7 @@ void draw_vertex(const Ui& ui, Index vertex) {
             s.is_running() ? "Pause the run to look into its step." : "...");
     return;
   }
-  text_in(ui.fonts.small, color::kTextFaint, step_text(s));
+  draw_step_line(ui, "");
   wrapped(ui.fonts.text, color::kText, why_sentence(*e));
   if (e->share_error >= kShareErrorLimit || e->quotient_error >= kQuotientErrorLimit)
     wrapped(ui.fonts.text, color::kWorse,
@@ -123,7 +148,7 @@ void draw_triangle(const Ui& ui, Index triangle) {
   }
   const std::string rank =
       s.worst_rank > 0 ? "   \xC2\xB7   worst no. " + std::to_string(s.worst_rank) : std::string();
-  text_in(ui.fonts.small, color::kTextFaint, step_text(s) + rank);
+  draw_step_line(ui, rank);
   wrapped(ui.fonts.text, color::kText, triangle_sentence(*e));
   ImGui::Dummy({0, ui.px(2)});
   draw_triangles(ui, *e, ui.px(150));

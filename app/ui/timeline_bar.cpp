@@ -155,6 +155,9 @@ std::string caption(const model::Session& s) {
   if (const model::Branch* branch = s.moving()) return motion_caption(s, *branch);
   std::string text = "Iteration " + std::to_string(timeline.cursor.iteration) + " of " +
                      std::to_string(timeline.last()) + "   \xC2\xB7   " + timeline.current()->name;
+  const model::StepSummary* step = timeline.step(timeline.cursor.branch, timeline.cursor.iteration);
+  if (step != nullptr && step->kind != StepKind::unknown)
+    text += "   \xC2\xB7   step: " + std::string(step_kind_name(step->kind));
   if (s.is_running()) return text;
   if (s.is_seeking()) return text + "   \xC2\xB7   going there";
   if (!s.continues_branch()) text += "   \xC2\xB7   Run begins a branch here";
@@ -261,6 +264,9 @@ void scrub(const Ui& ui, const Track& track) {
   if (row != rows.end())
     text += "\nEnergy " + number_text("%.6g", row->energy) + "\nSmallest angle " +
             number_text("%.2f", row->min_angle_deg) + "\xC2\xB0";
+  const model::StepSummary* step = s.timeline.step(s.timeline.cursor.branch, at);
+  if (step != nullptr && step->kind != StepKind::unknown)
+    text += "\nStep: " + std::string(step_kind_name(step->kind));
   for (const model::BreakHit& hit : s.hits)
     if (hit.iteration == at && hit.branch == s.timeline.cursor.branch) text += "\n" + hit.text;
   ImGui::BeginTooltip();

@@ -24,8 +24,10 @@ class Baseline : public GuardedSmoother {
   [[nodiscard]] bool descends() const override { return false; }
 
  protected:
-  Baseline(const SmoothingProblem& problem, RecordDetail detail, BaselineGuard guard)
-      : GuardedSmoother(problem, detail, step_guard(guard)), sweep_(problem), axes_(problem.vertex_count()) {}
+  Baseline(const SmoothingProblem& problem, StepKind kind, RecordDetail detail, BaselineGuard guard)
+      : GuardedSmoother(problem, kind, detail, step_guard(guard)),
+        sweep_(problem),
+        axes_(problem.vertex_count()) {}
 
   /// Looks at all triangles before any vertex is asked.
   virtual void prepare(std::span<const Vec3> /*x*/) {}
@@ -54,7 +56,7 @@ class Baseline : public GuardedSmoother {
 class Laplacian : public Baseline {
  public:
   Laplacian(const SmoothingProblem& problem, const LaplacianOptions& options)
-      : Baseline(problem, options.detail, options.guard),
+      : Baseline(problem, StepKind::laplacian, options.detail, options.guard),
         weighting_(options.weighting),
         relaxation_(options.relaxation.value_or(weighting_ == LaplacianWeighting::uniform ? 1 : 0.5)) {}
 
@@ -84,7 +86,7 @@ class Laplacian : public Baseline {
 class AngleBased : public Baseline {
  public:
   AngleBased(const SmoothingProblem& problem, const AngleBasedOptions& options)
-      : Baseline(problem, options.detail, options.guard),
+      : Baseline(problem, StepKind::angle_based, options.detail, options.guard),
         weighting_(options.weighting),
         relaxation_(options.relaxation),
         angles_(problem.triangle_count()) {}

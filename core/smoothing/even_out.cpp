@@ -14,7 +14,7 @@ constexpr unsigned kSweeps = 20;
 class EvenOutSmoother : public GuardedSmoother {
  public:
   EvenOutSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : GuardedSmoother(problem, detail, StepGuard::all_or_nothing),
+      : GuardedSmoother(problem, StepKind::even_out, detail, StepGuard::all_or_nothing),
         sweep_(problem),
         axes_(problem.vertex_count()),
         x_(problem.vertex_count()),

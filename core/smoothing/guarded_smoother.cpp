@@ -25,8 +25,10 @@ constexpr double kConvergedMove = 1e-12;
 
 }  // namespace
 
-GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail, StepGuard guard)
+GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, StepKind kind, RecordDetail detail,
+                                 StepGuard guard)
     : problem_(problem),
+      kind_(kind),
       detail_(detail),
       guard_(guard),
       here_(problem),
@@ -72,6 +74,7 @@ void GuardedSmoother::prepare(StepRecord& record) const {
   record.alpha.assign(n, 1);
   record.limits = problem_.fixed_limits;
   record.tangent_class = problem_.classes.classes;
+  record.kind = kind_;
   record.fold_passes = record.energy_passes = 0;
   record.detail.reset();
 }

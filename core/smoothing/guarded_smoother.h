@@ -21,7 +21,7 @@ class GuardedSmoother : public Smoother {
   void step(std::span<const Vec3> positions, StepRecord& record) final;
 
  protected:
-  GuardedSmoother(const SmoothingProblem& problem, RecordDetail detail,
+  GuardedSmoother(const SmoothingProblem& problem, StepKind kind, RecordDetail detail,
                   StepGuard guard = StepGuard::folds_and_energy);
 
   /// Fills gradient and displacement (zero where nothing may or should move) of every vertex, and adds to
@@ -53,6 +53,7 @@ class GuardedSmoother : public Smoother {
   [[nodiscard]] std::vector<Index> vertices_of_worse_triangles() const;
   void finish(StepRecord& record) const;
 
+  StepKind kind_;
   RecordDetail detail_;
   StepGuard guard_;
   bool continues_ = false;

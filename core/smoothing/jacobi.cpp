@@ -8,7 +8,9 @@ namespace {
 class JacobiSmoother : public GuardedSmoother {
  public:
   JacobiSmoother(const SmoothingProblem& problem, const JacobiOptions& options)
-      : GuardedSmoother(problem, options.detail), relaxation_(options.relaxation), sweep_(problem) {}
+      : GuardedSmoother(problem, StepKind::jacobi, options.detail),
+        relaxation_(options.relaxation),
+        sweep_(problem) {}
 
  private:
   /// Gradient and the displacement of Eq. 9 for every vertex.

@@ -22,7 +22,7 @@ constexpr unsigned kPreconditionerSteps = 10;
 class LbfgsSmoother : public GuardedSmoother {
  public:
   LbfgsSmoother(const SmoothingProblem& problem, const LbfgsOptions& options)
-      : GuardedSmoother(problem, options.detail),
+      : GuardedSmoother(problem, StepKind::lbfgs, options.detail),
         in_fixed_planes_(problem.plane_normal && problem.border.empty()),
         sweep_(problem),
         memory_(problem.vertex_count(), options.memory, problem.threads),

@@ -14,7 +14,7 @@ constexpr double kNeedleEnergy = 7;
 class NewtonSmoother : public GuardedSmoother {
  public:
   NewtonSmoother(const SmoothingProblem& problem, const NewtonOptions& options)
-      : GuardedSmoother(problem, options.detail),
+      : GuardedSmoother(problem, StepKind::newton, options.detail),
         options_(options),
         needle_(kNeedleEnergy * (problem.weights.shape + problem.weights.area)),
         sweep_(problem) {}

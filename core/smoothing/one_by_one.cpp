@@ -17,7 +17,7 @@ constexpr double kWorthwhileShare = 1e-3;
 class OneByOneSmoother : public GuardedSmoother {
  public:
   OneByOneSmoother(const SmoothingProblem& problem, RecordDetail detail)
-      : GuardedSmoother(problem, detail),
+      : GuardedSmoother(problem, StepKind::one_by_one, detail),
         sweep_(problem),
         state_(problem),
         axes_(problem.vertex_count()),

@@ -13,8 +13,8 @@ class PolishSmoother : public Smoother {
  public:
   PolishSmoother(const SmoothingProblem& problem, const PolishOptions& options)
       : problem_(problem), state_(problem), objective_(problem) {
-    if (options.goal != PolishGoal::mean) goals_.push_back(raise_worst(options));
-    if (options.goal != PolishGoal::worst) goals_.push_back(raise_mean(options));
+    if (options.goal != PolishGoal::mean) goals_.push_back({StepKind::raise_worst, raise_worst(options)});
+    if (options.goal != PolishGoal::worst) goals_.push_back({StepKind::raise_mean, raise_mean(options)});
   }
 
   [[nodiscard]] bool descends() const override { return false; }
@@ -23,13 +23,19 @@ class PolishSmoother : public Smoother {
     prepare(positions, record);
     if (!objective_.is_at(positions)) objective_.evaluate(positions);
     record.before = objective_.totals();
-    while (at_ < goals_.size() && !goals_[at_]->sweep(state_)) ++at_;
+    while (at_ < goals_.size() && !goals_[at_].sweeps->sweep(state_)) ++at_;
+    record.kind = goals_[std::min(at_, goals_.size() - 1)].kind;
     const std::vector<Index> changed = state_.settle(positions, record);
     record.after = objective_.update(state_.positions(), changed);
     objective_.mark(state_.positions());
   }
 
  private:
+  struct Goal {
+    StepKind kind;
+    std::unique_ptr<PolishGoalSweeps> sweeps;
+  };
+
   void prepare(std::span<const Vec3> positions, StepRecord& record) {
     const std::size_t n = problem_.vertex_count();
     record.gradient.assign(n, Vec3::Zero());
@@ -45,7 +51,7 @@ class PolishSmoother : public Smoother {
   const SmoothingProblem& problem_;
   PolishState state_;
   Objective objective_;
-  std::vector<std::unique_ptr<PolishGoalSweeps>> goals_;
+  std::vector<Goal> goals_;
   std::size_t at_ = 0;  // the goal that is being followed
 };
 

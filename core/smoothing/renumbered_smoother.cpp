@@ -35,6 +35,7 @@ class RenumberedSmoother : public Smoother {
     restore(own_.energy, triangle_, record.energy);
     record.detail.reset();
     if (own_.detail) restore_detail(*own_.detail, record.detail.emplace());
+    record.kind = own_.kind;
     record.before = own_.before;
     record.after = own_.after;
     record.largest_move = own_.largest_move;

@@ -1,6 +1,7 @@
 #include "smoothing/step_record.h"
 
 #include <algorithm>
+#include <array>
 
 namespace isorelax {
 
@@ -75,6 +76,13 @@ std::string_view limit_name(Limit limit) {
       return "converged";
   }
   return "unknown";
+}
+
+std::string_view step_kind_name(StepKind kind) {
+  constexpr std::array<std::string_view, kStepKinds> kNames{
+      "unknown",    "Jacobi",    "Newton",      "L-BFGS",       "even out",
+      "one by one", "Laplacian", "angle-based", "worst angles", "mean angle"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 void apply_step(const StepRecord& record, std::span<Vec3> positions) {

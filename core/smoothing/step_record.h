@@ -22,6 +22,21 @@ enum Limit : std::uint16_t {
   kLimitConverged = 128,  ///< asked for no move worth making
 };
 
+/// What made a step. Written to traces: new ones come last.
+enum class StepKind : std::uint8_t {
+  unknown,     ///< of a trace that does not tell
+  jacobi,      ///< the paper's: along the gradient of each vertex
+  newton,      ///< of each vertex, with its block of the Hessian
+  lbfgs,       ///< of all vertices together
+  even_out,    ///< sweeps to the means of neighbours (make_even_out)
+  one_by_one,  ///< each vertex downhill from where the ones before it are by then (make_one_by_one)
+  laplacian,
+  angle_based,
+  raise_worst,  ///< of the last stage, for the worst angles
+  raise_mean,   ///< of the last stage, for the mean of the triangles' smallest angles
+};
+inline constexpr std::size_t kStepKinds = 10;
+
 /// Sums over the mesh at one set of positions.
 struct StepTotals {
   double energy = 0;         ///< sum of E^exponent over the treated triangles: what is minimised
@@ -69,6 +84,7 @@ struct StepRecord {
   /// The way to the step; only when all detail is asked for.
   std::optional<StepDetail> detail;
 
+  StepKind kind = StepKind::unknown;
   StepTotals before, after;
   double largest_move = 0;     ///< length of the longest accepted move
   unsigned fold_passes = 0;    ///< rounds of the asynchronous step-size control, against distance too
@@ -96,6 +112,9 @@ std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> limits);
 
 /// Name of one bit of Limit for people: "pinned", "corner", ...
 std::string_view limit_name(Limit limit);
+
+/// Name of what made a step for people: "Newton", "even out", ...
+std::string_view step_kind_name(StepKind kind);
 
 /// positions[v] += alpha[v] * displacement[v]: exactly the positions whose totals are `record.after`.
 void apply_step(const StepRecord& record, std::span<Vec3> positions);

@@ -53,6 +53,7 @@ void TraceRecorder::begin_part(const RunPart& part, std::span<const Vec3> positi
 void TraceRecorder::add(unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
   go_back_to(iteration - 1);
   TraceIteration entry;
+  entry.kind = record.kind;
   entry.before = record.before;
   entry.after = record.after;
   entry.largest_move = record.largest_move;

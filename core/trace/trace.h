@@ -25,6 +25,7 @@ struct TraceQuality {
 
 /// One iteration of a recorded run: the step's totals, the quality after it, and its moves.
 struct TraceIteration {
+  StepKind kind = StepKind::unknown;
   StepTotals before, after;
   double largest_move = 0;
   std::size_t fold_passes = 0;

@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 void append(std::string& text, double value) {
   append_number(text, value);
 }
+void append(std::string& text, StepKind kind) {
+  text += step_kind_name(kind);
+}
 void append(std::string& text, std::size_t value) {
   append_integer(text, value);
 }
@@ -147,8 +150,12 @@ std::string trace_json(const Trace& trace) {
   Json iterations = Json::array();
   for (std::size_t k = 1; k <= trace.iterations.size(); ++k) {
     Json one{{"iteration", k}};
-    visit_numbers(trace.iterations[k - 1],
-                  [&](std::string_view name, const auto& value) { one[std::string(name)] = value; });
+    visit_numbers(trace.iterations[k - 1], [&](std::string_view name, const auto& value) {
+      if constexpr (std::is_same_v<decltype(value), const StepKind&>)
+        one[std::string(name)] = step_kind_name(value);
+      else
+        one[std::string(name)] = value;
+    });
     iterations.push_back(std::move(one));
   }
   json["iterations"] = std::move(iterations);

@@ -19,11 +19,13 @@ namespace isorelax {
 /// PART begins with done (8 bytes), exponent, distance of the holds (doubles), flags (8: 1 polish, 2
 /// from_base, 4 words of its own), the count of vertices held still (8) and these vertices (4 each). Version
 /// 1 had no TraceParts; version 2 had after that count another one, of vertices about which the distance was
-/// kept, and those after the others: their parts are read as keeping it everywhere.
+/// kept, and those after the others: their parts are read as keeping it everywhere. Up to
+/// version 3 STEP did not tell what made the step.
 inline constexpr std::string_view kTraceMagic = "ISOTRACE";
-inline constexpr std::uint32_t kTraceVersion = 3;
+inline constexpr std::uint32_t kTraceVersion = 4;
 inline constexpr std::uint32_t kFirstTraceVersion = 1;
 inline constexpr std::uint32_t kVersionOfKeptVertices = 2;
+inline constexpr std::uint32_t kFirstVersionOfKinds = 4;
 enum TracePartFlag : std::uint64_t { kTracePartPolish = 1, kTracePartFromBase = 2, kTracePartWords = 4 };
 
 /// The bytes of a trace file.
@@ -39,7 +41,8 @@ void write_trace(const std::filesystem::path& path, const Trace& trace);
 /// Throws InputError.
 [[nodiscard]] Trace read_trace(const std::filesystem::path& path);
 
-/// The numbers of one iteration, in the order of the file: for each a name, and how to read and write it.
+/// The numbers of one iteration, in the order of the file, and at last what made it: for each a name, and how
+/// to read and write it.
 template <typename Iteration, typename Visit>
 void visit_numbers(Iteration& iteration, const Visit& visit) {
   visit("energy_before", iteration.before.energy);
@@ -62,6 +65,7 @@ void visit_numbers(Iteration& iteration, const Visit& visit) {
   visit("max_angle_deg", iteration.quality.max_angle_deg);
   visit("mean_min_angle_deg", iteration.quality.mean_min_angle_deg);
   visit("inverted", iteration.quality.inverted);
+  visit("kind", iteration.kind);
 }
 
 }  // namespace isorelax

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "io/mesh_file.h"
 #include "mesh/error.h"
@@ -200,10 +201,13 @@ class Reader {
     const std::string numbers = part("STEP");
     std::size_t at = 0;
     visit_numbers(iteration, [&](std::string_view, auto& value) {
+      if (std::is_same_v<decltype(value), StepKind&> && version_ < kFirstVersionOfKinds) return;
       if (numbers.size() - at < sizeof(value)) fail(part_start_, "an iteration lacks numbers");
       std::memcpy(&value, numbers.data() + at, sizeof(value));
       at += sizeof(value);
     });
+    if (static_cast<std::size_t>(iteration.kind) >= kStepKinds)
+      fail(part_start_, "an iteration is of a kind that is not known");
     std::uint64_t size = 0;
     iteration.delta = stored("MOVE", size);
     if (size != vertices_ * sizeof(Vec3)) fail(part_start_, "the moves are those of another mesh");

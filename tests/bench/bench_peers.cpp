@@ -236,13 +236,11 @@ int run(std::span<char*> names) {
       "One thread each. Angles in degrees: smallest, largest, mean of the triangles' smallest. Distance\n"
       "from the input (largest, RMS) over its bounding-box diagonal, change of volume, inverted triangles,\n"
       "seconds from the mesh as it was read, and in the last column those in which Isorelax is as good as\n"
-      "the peer in the smallest angle and the mean (-: it is not): free in the peer's row, and below it "
-      "with\n"
-      "the peer's distance as the limit. Peers hold the boundary and all features. Where a peer stays "
-      "nearer\n"
-      "to the input than Isorelax, or got better by going farther, that run is polished, too: the worst\n"
-      "angles, then the mean while the worst tenth of the triangles stay as good as they are; or for the\n"
-      "mean alone, while the worst of all does.\n\n");
+      "the peer in the smallest angle and the mean (-: it is not): free in the peer's row, and below it\n"
+      "with the peer's distance as the limit. Peers hold the boundary and all features. Where a peer\n"
+      "stays nearer to the input than Isorelax, or got better by going farther, that run is polished, too:\n"
+      "the worst angles, then the mean while the worst tenth of the triangles stay as good as they are; or\n"
+      "the mean alone, while the worst of all does.\n\n");
   std::printf("  %-44s %7s %7s %7s  %8s %8s %8s %5s %8s %9s\n\n", "", "min", "max", "mean", "max dev",
               "rms dev", "volume", "inv", "seconds", "ours then");
   if (!names.empty()) {

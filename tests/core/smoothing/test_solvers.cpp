@@ -2,7 +2,9 @@
 
 #include "generate/generate.h"
 #include "quality/report.h"
+#include "smoothing/baselines.h"
 #include "smoothing/bounded_run.h"
+#include "smoothing/polish.h"
 
 namespace isorelax {
 namespace {
@@ -37,6 +39,32 @@ TEST(Solvers, NeverRaiseTheEnergyAndNeverTurnATriangle) {
       }
     }
   }
+}
+
+TEST(Solvers, EveryStepTellsWhatMadeIt) {
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 3, .triangles = 454});
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
+  const auto kinds = [&](Smoother& smoother, std::size_t steps) {
+    std::vector<Vec3> x = mesh.positions;
+    std::vector<StepKind> found;
+    StepRecord record;
+    for (std::size_t k = 0; k < steps; ++k) {
+      smoother.step(x, record);
+      apply_step(record, x);
+      if (found.empty() || found.back() != record.kind) found.push_back(record.kind);
+    }
+    return found;
+  };
+  using Kinds = std::vector<StepKind>;
+  EXPECT_EQ(kinds(*make_smoother(problem, Solver::jacobi), 2), Kinds{StepKind::jacobi});
+  EXPECT_EQ(kinds(*make_smoother(problem, Solver::newton), 2), Kinds{StepKind::newton});
+  EXPECT_EQ(kinds(*make_smoother(problem, Solver::lbfgs), 2), Kinds{StepKind::lbfgs});
+  EXPECT_EQ(kinds(*make_smoother(problem, Solver::automatic), 20),
+            (Kinds{StepKind::even_out, StepKind::newton, StepKind::lbfgs}));
+  EXPECT_EQ(kinds(*make_laplacian(problem, {}), 2), Kinds{StepKind::laplacian});
+  EXPECT_EQ(kinds(*make_angle_based(problem, {}), 2), Kinds{StepKind::angle_based});
+  EXPECT_EQ(kinds(*make_polish(problem, {.goal = PolishGoal::both}), 400),
+            (Kinds{StepKind::raise_worst, StepKind::raise_mean}));
 }
 
 TEST(Solvers, ConvergeToTheSameMinimum) {

@@ -6,6 +6,7 @@
 #include "core/trace/recorded.h"
 #include "mesh/error.h"
 #include "trace/trace_diff.h"
+#include "trace/trace_export.h"
 #include "trace/trace_file.h"
 
 namespace isorelax::test {
@@ -54,13 +55,25 @@ TEST(TraceFile, RefusesEveryTruncationAndWhatFollowsTheEnd) {
   EXPECT_THROW((void)parse_trace(bytes + "x", "t"), InputError);
   EXPECT_THROW((void)parse_trace("OFF\n1 2 3\n", "t"), InputError);
   std::string later = bytes;
-  later[kTraceMagic.size()] = 4;
+  later[kTraceMagic.size()] = kTraceVersion + 1;
   try {
     (void)parse_trace(later, "t");
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("version 4"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("version " + std::to_string(kTraceVersion + 1)), std::string::npos);
   }
+}
+
+TEST(TraceFile, TellsWhatMadeEachStep) {
+  Trace trace = record(3).trace;
+  trace.iterations[0].kind = StepKind::even_out;
+  trace.iterations[2].kind = StepKind::raise_mean;
+  const Trace back = parse_trace(trace_bytes(trace), "t");
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(back.iterations[k].kind, trace.iterations[k].kind) << k;
+  EXPECT_NE(trace_csv(back).find(",even out\n"), std::string::npos);
+  EXPECT_NE(trace_json(back).find("\"kind\": \"mean angle\""), std::string::npos);
+  trace.iterations[1].kind = static_cast<StepKind>(kStepKinds);
+  EXPECT_THROW((void)parse_trace(trace_bytes(trace), "t"), InputError);
 }
 
 TEST(TraceFile, IsSmallerThanItsPositions) {

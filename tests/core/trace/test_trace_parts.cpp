@@ -168,6 +168,15 @@ TEST(TraceParts, FilesOfTheSecondVersionKeepTheirDistanceEverywhereOrNowhere) {
   EXPECT_TRUE(parse_trace(trace_bytes(limited), "t").parts == limited.parts);
 }
 
+TEST(TraceParts, FilesOfTheThirdVersionDoNotTellWhatMadeTheirSteps) {
+  const Trace trace = read_trace(ISORELAX_SOURCE_DIR "/tests/core/trace/recorded/version_3.trace");
+  ASSERT_EQ(trace.iterations.size(), 4U);
+  ASSERT_EQ(trace.parts.size(), 1U);
+  for (const TraceIteration& iteration : trace.iterations) EXPECT_EQ(iteration.kind, StepKind::unknown);
+  EXPECT_EQ(trace.iterations.back().quality.inverted, 0U);
+  EXPECT_GT(trace.iterations.back().quality.min_angle_deg, trace.quality.min_angle_deg);
+}
+
 TEST(TraceParts, AnAttemptThatBeginsAnewDropsThoseOfTheOneBefore) {
   const Recorded recorded = record();
   TraceRecorder recorder({}, recorded.mesh);
