@@ -79,9 +79,12 @@ struct RunEnded {
 struct SurfaceMeasured {
   std::shared_ptr<const Geometry> geometry;  ///< of which state
   Deviation deviation;
-  double limit = 0;        ///< the largest that `isorelax smooth` would leave, over the diagonal
+  double limit = 0;        ///< that every step has to keep, over the diagonal
+  bool is_over = false;    ///< the run, without what untangling before it took, has led farther
   std::size_t turned = 0;  ///< triangles that lie upside down and did not
 };
+/// Others were in more of a hurry than to measure that.
+struct SurfaceGaveWay {};
 /// Holds nothing.
 inline constexpr ValueRange kNoRange{std::numeric_limits<double>::infinity(),
                                      -std::numeric_limits<double>::infinity()};
@@ -194,8 +197,8 @@ struct Wrote {
   std::filesystem::path path;
 };
 
-using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, SurfaceMeasured, Saved, Failed,
-                           RunFailed, Sought, Inspected, Followed, TraceOpened, Compared, Wrote, Scanned,
-                           Moved, MotionEnded, MotionInspected, MovingPath>;
+using Event = std::variant<Loaded, EnergyMeasured, Iterated, RunEnded, SurfaceMeasured, SurfaceGaveWay, Saved,
+                           Failed, RunFailed, Sought, Inspected, Followed, TraceOpened, Compared, Wrote,
+                           Scanned, Moved, MotionEnded, MotionInspected, MovingPath>;
 
 }  // namespace isorelax::model

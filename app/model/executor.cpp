@@ -177,7 +177,7 @@ void Executor::measure_energy_if_changed() {
     return !state->energy || !same_energy(state->energy->settings, s_.smoothing);
   };
   if (stale(s_.current) || stale(s_.original))
-    s_.engine.post("energy", energy_job(s_.document, s_.smoothing, s_.original, s_.current));
+    s_.engine.post("energy", energy_job(s_.document, s_.smoothing, s_.original, s_.current, place_shown()));
 }
 
 void Executor::operator()(const CopyCommandLine& /*command*/) {
@@ -311,14 +311,14 @@ void Executor::measure_surface() {
   if (!s_.current || s_.is_running() || s_.current->geometry == s_.original->geometry ||
       s_.document->mesh().triangle_count() > kMostMeasured)
     return;
-  s_.engine.post("surface", surface_job(s_.document, s_.smoothing, s_.current));
+  s_.engine.post("surface", surface_job(s_.document, s_.smoothing, s_.current, place_shown()));
 }
 
 void Executor::operator()(SurfaceMeasured& event) {
   if (!s_.current || event.geometry != s_.current->geometry) return;
   std::string text;
   if (event.turned > 0) text = count_label(static_cast<unsigned>(event.turned), "triangle") + " turned over";
-  if (event.deviation.max > event.limit) {
+  if (event.is_over) {
     char away[96];
     std::snprintf(away, sizeof away, "the surface went %.2g %% of its diagonal away from the original",
                   100 * event.deviation.max);

@@ -56,6 +56,7 @@ class Executor {
   void operator()(Iterated& event);
   void operator()(RunEnded& event);
   void operator()(SurfaceMeasured& event);
+  void operator()(SurfaceGaveWay& /*event*/) { measure_surface(); }
   void operator()(Saved& event);
   void operator()(Failed& event);
   void operator()(RunFailed& event);
@@ -98,6 +99,7 @@ class Executor {
   void forget_runs();
   void clear_selection();
   [[nodiscard]] Place place_of(unsigned branch, unsigned iteration) const;
+  [[nodiscard]] Place place_shown() const;
   [[nodiscard]] Path path_of(unsigned branch, unsigned last) const;
   [[nodiscard]] std::span<const double> worst_values();
   void measure_energy_if_changed();

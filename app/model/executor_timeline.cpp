@@ -80,6 +80,10 @@ Place Executor::place_of(unsigned branch, unsigned iteration) const {
   return {held.recording, iteration - held.start, held.not_redone};
 }
 
+Place Executor::place_shown() const {
+  return place_of(s_.timeline.cursor.branch, s_.timeline.cursor.iteration);
+}
+
 Path Executor::path_of(unsigned branch, unsigned last) const {
   Path path;
   if (s_.timeline.empty()) return path;

@@ -104,9 +104,12 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   context.progress("Preparing", -1);
   Workbench& bench = context.bench();
   bench.steps().set_budget(request.step_budget);
-  if (!request.recording->has_begun())
+  if (!request.recording->has_begun()) {
+    BasePtr base = base_at(*request.document, request.left);
+    if (!base) base = bench.start_of(request.document, request.settings).base;
     request.recording->begin(about(*request.document, request.settings), request.document->mesh(),
-                             request.start->positions(), base_at(*request.document, request.left));
+                             request.start->positions(), std::move(base));
+  }
   const Workbench::ProblemPtr problem =
       bench.problem(request.document, request.settings, request.recording->base());
   Smoother& smoother = bench.smoother(request.document, request.settings, request.kind, *request.recording);
@@ -116,7 +119,7 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
     context.publish(RunEnded{cancelled, {}});
     return;
   }
-  const auto start = request.start->positions();
+  const auto start = request.recording->next_start(request.start->positions());
   std::vector<Vec3> positions(start.begin(), start.end());
   RunReporter reporter(context, request, *problem);
   const RunResult result =
@@ -134,6 +137,14 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
 
 namespace {
 
+std::string will_be_turned(const UntangleResult& result) {
+  const auto triangles = [](std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " triangle lies" : " triangles lie");
+  };
+  return triangles(result.before) + " upside down: a run turns " +
+         (result.after == 0 ? "all of them" : "all but " + std::to_string(result.after)) + " first";
+}
+
 /// Measures a document that was made and shows it: Loaded. The workbench forgets the one before.
 void publish_loaded(const JobContext& context, DocumentPtr document, const SmoothingSettings& settings) {
   const std::string name = document->path.filename().string();
@@ -149,6 +160,11 @@ void publish_loaded(const JobContext& context, DocumentPtr document, const Smoot
   context.bench().forget();
   // A mesh that cannot be smoothed can still be looked at.
   try {
+    const UntangledStart& start = context.bench().start_of(loaded.document, settings).untangled;
+    if (start.result.moved.empty())
+      loaded.notes.insert(loaded.notes.end(), start.notes.begin(), start.notes.end());
+    else
+      loaded.notes.push_back(will_be_turned(start.result));
     const Workbench::ProblemPtr problem = context.bench().problem(loaded.document, settings);
     state->energy = measure_energy(*problem, settings, state->positions());
     loaded.notes.insert(loaded.notes.end(), problem->notes.begin(), problem->notes.end());
@@ -177,9 +193,9 @@ Engine::Job load_job(std::filesystem::path path, SmoothingSettings settings) {
 }
 
 Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr original,
-                       MeshStatePtr current) {
+                       MeshStatePtr current, Place place) {
   return [document = std::move(document), settings = std::move(settings), original = std::move(original),
-          current = std::move(current)](const JobContext& context) {
+          current = std::move(current), place = std::move(place)](const JobContext& context) {
     context.progress("Measuring the energy", -1);
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
     EnergyMeasured measured{document, original->geometry, current->geometry, nullptr,
@@ -187,7 +203,7 @@ Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshSta
     measured.original = measure_energy(*problem, settings, original->positions());
     measured.current = original->geometry == current->geometry
                            ? measured.original
-                           : measure_energy(*problem, settings, current->positions());
+                           : energy_at(context.bench(), document, settings, place, current->positions());
     context.publish(std::move(measured));
   };
 }
@@ -204,16 +220,28 @@ Engine::Job run_job(RunRequest request) {
   };
 }
 
-Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state) {
-  return [document = std::move(document), settings = std::move(settings),
-          state = std::move(state)](const JobContext& context) {
-    if (context.others_wait()) return;
+Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state, Place place) {
+  return [document = std::move(document), settings = std::move(settings), state = std::move(state),
+          place = std::move(place)](const JobContext& context) {
+    if (context.others_wait()) {
+      context.publish(SurfaceGaveWay{});
+      return;
+    }
     context.progress("Measuring the distance from the original", -1);
-    const std::vector<Vec3>& start = document->mesh().positions;
-    const Workbench::ProblemPtr problem = context.bench().problem(document, settings);
+    const TriangleMesh& mesh = document->mesh();
+    BasePtr base = base_at(*document, place);
+    if (!base) base = context.bench().start_of(document, settings).base;
+    const std::vector<Vec3>& start = base ? *base : mesh.positions;
+    const Workbench::ProblemPtr problem = context.bench().problem(document, settings, base);
     const double limit = deviation_limit(settings, start, *problem);
     const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem).look(state->positions(), limit);
-    context.publish(SurfaceMeasured{state->geometry, found.deviation, limit, found.turned_triangles});
+    SurfaceMeasured measured{state->geometry, found.deviation, limit, found.deviation.max > limit,
+                             found.turned_triangles};
+    // Triangles upside down in a plane cover what the sound ones cover as well.
+    if (base && !document->plane_normal)
+      measured.deviation =
+          measure_deviation(mesh.positions, state->positions(), mesh.triangles, document->topology);
+    context.publish(std::move(measured));
   };
 }
 

@@ -12,9 +12,10 @@ namespace isorelax::model {
 /// Opens a sphere: Loaded.
 [[nodiscard]] Engine::Job sphere_job(const SphereStart& sphere, SmoothingSettings settings);
 
-/// Measures the energy of two states under new settings: EnergyMeasured or Failed.
+/// Measures the energy of two states under new settings, the current one at its place: EnergyMeasured or
+/// Failed.
 [[nodiscard]] Engine::Job energy_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr original,
-                                     MeshStatePtr current);
+                                     MeshStatePtr current, Place place);
 
 struct RunRequest {
   DocumentPtr document;
@@ -33,9 +34,10 @@ struct RunRequest {
 /// Runs the smoother from a state: Iterated as often as the view keeps up, then RunEnded; or RunFailed.
 [[nodiscard]] Engine::Job run_job(RunRequest request);
 
-/// Measures how far a state is from the document's mesh: SurfaceMeasured. Gives way to other jobs, and then
-/// publishes nothing.
-[[nodiscard]] Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state);
+/// Measures how far a state, which is at a place, is from the document's mesh: SurfaceMeasured, or
+/// SurfaceGaveWay where other jobs wait.
+[[nodiscard]] Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state,
+                                      Place place);
 
 /// Writes the document with a state's positions: Saved or Failed.
 [[nodiscard]] Engine::Job save_job(DocumentPtr document, MeshStatePtr state, std::filesystem::path path);

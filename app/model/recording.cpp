@@ -19,7 +19,12 @@ void Recording::begin(Trace about, const TriangleMesh& mesh, std::span<const Vec
   const TriangleMesh from{{start.begin(), start.end()}, mesh.triangles, {}};
   recorder_ = std::make_unique<TraceRecorder>(std::move(about), from);
   if (!same_bits(start, made_from)) to_base_ = encode_delta(start, made_from);
+  from_base_ = base && same_bits(start, mesh.positions) && !same_bits(start, *base);
   base_ = std::move(base);
+}
+
+std::span<const Vec3> Recording::next_start(std::span<const Vec3> at) const {
+  return from_base_ && size() == 0 ? *base_ : at;
 }
 
 void Recording::take(Trace trace, ReadAs as) {
@@ -36,6 +41,7 @@ void Recording::note_fresh_start(PartKind kind, const SmoothingProblem& problem)
   part.exponent = problem.exponent;
   if (problem.near) part.holds.distance = problem.near->distance;
   part.base = to_base_;
+  part.from_base = from_base_ && size() == 0;
   parts.push_back(std::move(part));
 }
 

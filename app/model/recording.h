@@ -23,7 +23,7 @@ struct MotionTrack {
   std::optional<MotionShare> share;  ///< made when a vertex is looked at
 };
 
-/// Positions that a problem is made from; null: those of the open document.
+/// Positions that a problem is made from; null: those that its document starts from (Workbench::start_of).
 using BasePtr = std::shared_ptr<const std::vector<Vec3>>;
 
 /// How a run that was read from a file is understood.
@@ -38,7 +38,7 @@ struct ReadAs {
 class Recording {
  public:
   /// Begins at these positions of the document's mesh; `about` says what the run is. Its problem is made from
-  /// `base`.
+  /// `base`; at the mesh as opened, the first step begins there, too.
   void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start, BasePtr base = {});
   /// A run that was recorded before. Precondition: it has parts, as many as `as` has plans, or `as` has none
   /// because its steps cannot be made again.
@@ -49,6 +49,8 @@ class Recording {
   [[nodiscard]] bool can_grow() const { return recorder_ != nullptr; }
   [[nodiscard]] bool has_begun() const { return recorder_ != nullptr || taken_ != nullptr; }
 
+  /// Where the next step begins, of a run that can grow and stands at these positions.
+  [[nodiscard]] std::span<const Vec3> next_start(std::span<const Vec3> at) const;
   /// Adds the next step.
   void add(const StepRecord& record, std::span<const Vec3> positions);
   [[nodiscard]] const Trace& trace() const { return recorder_ ? recorder_->trace() : *taken_; }
@@ -76,6 +78,7 @@ class Recording {
   unsigned stride_ = 8;                          // between whole ones
   ReadAs read_as_;
   BasePtr base_;
+  bool from_base_ = false;  // the first step is
   std::string
       to_base_;  // delta from the start to what the problem is made from; empty where they are the same
 };

@@ -87,7 +87,10 @@ StepMaking making_of(Workbench& bench, const DocumentPtr& document, const Smooth
   const TracePart* part = nullptr;
   if (is_recorded(place)) part = part_of(recording->trace(), place.iteration);
   StepMaking making;
-  if (part != nullptr) making.from = static_cast<unsigned>(part->done);
+  if (part != nullptr) {
+    making.from = static_cast<unsigned>(part->done);
+    making.from_base = part->from_base;
+  }
   if (part != nullptr && follows_parts(recording)) {
     const auto index = static_cast<std::size_t>(part - recording->trace().parts.data());
     const auto plan = recording->read_as()->plans[index];
@@ -96,12 +99,12 @@ StepMaking making_of(Workbench& bench, const DocumentPtr& document, const Smooth
     making.smoother = [problem = making.problem, plan, part] {
       return make_part_smoother(*problem, *part, *plan);
     };
-    making.from_base = part->from_base;
     making.part = part;
     return making;
   }
   making.problem = bench.problem(document, settings, recording != nullptr ? recording->base() : BasePtr());
   making.features = feature_options(settings);
+  if (recording == nullptr || !recording->has_begun()) making.start = bench.start_of(document, settings).base;
   // All steps of a recording that grows are of one kind.
   if (part == nullptr && recording != nullptr && recording->can_grow() && !recording->trace().parts.empty())
     part = &recording->trace().parts.back();
@@ -120,6 +123,7 @@ FoundStep find_step(const JobContext& context, const DocumentPtr& document, cons
     // The step that would be made next.
     const unsigned last = recording != nullptr && recording->has_begun() ? recording->size() : 0;
     found.before = positions_of(*document, {place.recording, last, {}});
+    if (making.start && last == 0) found.before = *making.start;
     found.record = lone_step(making, found.before);
     return found;
   }

@@ -23,6 +23,7 @@ struct StepMaking {
   FeatureOptions features;
   /// One that keeps all detail and knows of no step before. Keeps a reference to the problem.
   std::function<std::unique_ptr<Smoother>()> smoother;
+  BasePtr start;                    ///< of a step that would be the first; null: the mesh as opened
   const TracePart* part = nullptr;  ///< of a run that was read
   unsigned from = 0;                ///< iteration after which such a one made the steps
   bool from_base = false;  ///< ... from the positions that the problem is made from, not from those there

@@ -26,6 +26,17 @@ SmoothingSettings problem_part(SmoothingSettings settings) {
   return settings;
 }
 
+// Those that decide how triangles are turned that lie upside down.
+SmoothingSettings start_part(const SmoothingSettings& settings) {
+  SmoothingSettings part;
+  part.features = settings.features;
+  part.feature_deg = settings.feature_deg;
+  part.pinned = settings.pinned;
+  if (settings.reach == Reach::typed)
+    part.reach = settings.reach, part.max_deviation = settings.max_deviation;
+  return part;
+}
+
 ReferenceChoice reference_choice(const SmoothingSettings& settings) {
   switch (settings.reference) {
     case ReferenceKind::mean_area:
@@ -130,8 +141,26 @@ RunPlan plan_of(const SmoothingSettings& settings) {
   return {problem_options(settings), make, polish_options(settings)};
 }
 
+const Workbench::Start& Workbench::start_of(const DocumentPtr& document, const SmoothingSettings& settings) {
+  const SmoothingSettings wanted = start_part(settings);
+  if (start_ && start_->document == document &&
+      (start_->settings == wanted || start_->start.untangled.result.before == 0))
+    return start_->start;
+  const TriangleMesh& mesh = document->mesh();
+  std::vector<Vec3> positions = mesh.positions;
+  DeviationLimit limit;
+  if (wanted.reach == Reach::typed) limit.max = wanted.max_deviation;
+  MadeStart made{document, wanted, {}};
+  made.start.untangled = untangle_start(positions, mesh.triangles, problem_options(wanted), limit);
+  if (!made.start.untangled.result.moved.empty())
+    made.start.base = std::make_shared<const std::vector<Vec3>>(std::move(positions));
+  start_ = std::move(made);
+  return start_->start;
+}
+
 Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings,
-                                         const BasePtr& base) {
+                                         const BasePtr& wanted_base) {
+  const BasePtr base = wanted_base ? wanted_base : start_of(document, settings).base;
   const SmoothingSettings wanted = problem_part(settings);
   const auto found = std::ranges::find_if(problems_, [&](const Made& made) {
     return made.document == document && made.settings == wanted && made.base == base;
@@ -220,6 +249,7 @@ MotionRun& Workbench::motion_run(const std::shared_ptr<MotionTrack>& track) {
 
 void Workbench::forget() {
   moved_.reset();
+  start_.reset();
   problems_.clear();
   parts_.clear();
   smoother_.reset();

@@ -6,18 +6,27 @@
 #include "model/document.h"
 #include "model/recording.h"
 #include "model/settings.h"
-#include "smoothing/run.h"
+#include "smoothing/bounded_run.h"
 
 namespace isorelax::model {
 
 /// What the worker keeps between jobs: the frozen problems of the open document, the smoother of the last
 /// run, the full records of steps. Belongs to the worker.
 ///
-/// The problem is made from the mesh as it was opened, or as a run that was read began from it, and never
-/// from where a run stands, so that one that was paused and continued goes where one long run goes.
+/// The problem is made from the mesh as it was opened, with what lay upside down turned, or as a run that was
+/// read began from it, and never from where a run stands, so that one that was paused and continued goes
+/// where one long run goes.
 class Workbench {
  public:
   using ProblemPtr = std::shared_ptr<const SmoothingProblem>;
+
+  /// What the runs of a document start from.
+  struct Start {
+    BasePtr base;  ///< the mesh as opened with triangles turned that lay upside down; null: there are none
+    UntangledStart untangled;
+  };
+  /// Found anew only for another document, or other settings that play a part in it. Throws Error.
+  const Start& start_of(const DocumentPtr& document, const SmoothingSettings& settings);
 
   /// The problem for these settings; made anew only when it is none of the last few. Throws Error.
   ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings,
@@ -64,10 +73,16 @@ class Workbench {
     std::size_t part;
     ProblemPtr problem;
   };
-  std::deque<Made> problems_;   // newest first
-  std::deque<MadePart> parts_;  // newest first
-  PlanReader read_words_;       // none: the editor's settings
-  ProblemPtr smoothed_;         // what the smoother works on
+  struct MadeStart {
+    DocumentPtr document;
+    SmoothingSettings settings;
+    Start start;
+  };
+  std::deque<Made> problems_;       // newest first
+  std::optional<MadeStart> start_;  // of the last document and settings
+  std::deque<MadePart> parts_;      // newest first
+  PlanReader read_words_;           // none: the editor's settings
+  ProblemPtr smoothed_;             // what the smoother works on
   std::unique_ptr<Smoother> smoother_;
   const Recording* recording_ = nullptr;  // whose last step the smoother made
   unsigned at_ = 0;                       // how many steps that had

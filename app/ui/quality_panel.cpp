@@ -40,7 +40,7 @@ std::array<Figure, 11> figures(const model::Session& session) {
                         : known && session.surface->deviation.has_volume
                             ? shown_zero(100 * session.surface->deviation.volume_change)
                             : nothing;
-  const bool is_far = known && session.surface->deviation.max > session.surface->limit;
+  const bool is_far = known && session.surface->is_over;
   return {{
       {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f",
        "\xC2\xB0"},

@@ -244,24 +244,15 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& 
   const std::span<const Triangle> triangles = attempts.triangles;
   const DeviationLimit& limit = attempts.limit;
   const std::vector<Vec3> input(positions.begin(), positions.end());
-  UntangleResult untangled = untangle_input(positions, triangles, problem_options);
-  std::vector<std::string> notes = note_of(untangled);
-  const auto topology = [&] { return Topology(triangles, static_cast<Index>(positions.size())); };
-  const auto deviation = [&] {
-    return measure_deviation(input, positions, triangles, topology(), problem_options.threads);
-  };
-  if (!untangled.moved.empty() && limit.max && deviation().max > *limit.max) {
-    std::copy(input.begin(), input.end(), positions.begin());
-    notes = {"untangling would leave the input surface by more than the limit: not done"};
-    untangled = {untangled.before, untangled.before, {}};
-  }
+  auto [untangled, notes] = untangle_start(positions, triangles, problem_options, limit);
   const bool moved = !untangled.moved.empty();
   const std::vector<Vec3> start(positions.begin(), positions.end());
   BoundedResult result =
       run_with_some_exponent(positions, limit.max ? input : start, problem_options, attempts);
   // Triangles upside down in a plane cover what the sound ones cover as well.
+  const auto topology = [&] { return Topology(triangles, static_cast<Index>(positions.size())); };
   if (moved && !plane_normal(input, triangles, topology(), problem_options.threads))
-    result.deviation = deviation();
+    result.deviation = measure_deviation(input, positions, triangles, topology(), problem_options.threads);
   result.untangled = std::move(untangled);
   result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
   return result;
@@ -287,6 +278,22 @@ ProblemOptions scaled(ProblemOptions options, double factor) {
 }
 
 }  // namespace
+
+UntangledStart untangle_start(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                              const ProblemOptions& options, const DeviationLimit& limit) {
+  const std::vector<Vec3> input(positions.begin(), positions.end());
+  UntangledStart start{untangle_input(positions, triangles, options), {}};
+  UntangleResult& result = start.result;
+  start.notes = note_of(result);
+  if (result.moved.empty() || !limit.max) return start;
+  const Topology topology(triangles, static_cast<Index>(positions.size()));
+  if (measure_deviation(input, positions, triangles, topology, options.threads).max <= *limit.max)
+    return start;
+  std::copy(input.begin(), input.end(), positions.begin());
+  start.notes = {"untangling would leave the input surface by more than the limit: not done"};
+  result = {result.before, result.before, {}};
+  return start;
+}
 
 BoundedResult run_bounded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                           const ProblemOptions& problem_options, const SmootherFactory& make_smoother,

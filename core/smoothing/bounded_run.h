@@ -78,6 +78,17 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
                                 const StepObserver& observer = {},
                                 const std::function<void(unsigned done, double exponent)>& on_stage = {});
 
+/// What a run does first about triangles that lie upside down.
+struct UntangledStart {
+  UntangleResult result;
+  std::vector<std::string> notes;  ///< for the user
+};
+
+/// Turns them over in place (untangle_input), unless that would leave the surface by more than a stated
+/// limit.
+UntangledStart untangle_start(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                              const ProblemOptions& options, const DeviationLimit& limit);
+
 /// Smooths a mesh in place, polishes it if asked to, and measures how far it is from where it was. Every step
 /// keeps the limit (SurfaceLimit). A run under an automatic limit that turns out to be too near
 /// (wider_limit_pays) is done again from the start under the wider one. Should the result be farther than the
@@ -87,7 +98,7 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 /// again. Where no exponent is asked for, it is 2, or 1 where that would lower the mean of the triangles'
 /// smallest angles. Throws as make_problem.
 ///
-/// A mesh with inverted triangles is untangled first (untangle_input) and smoothed from there. A stated limit
+/// A mesh with inverted triangles is untangled first (untangle_start) and smoothed from there. A stated limit
 /// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of
 /// extreme size (beyond 2^100 or 2^-100) is smoothed at a size near one, in which the lengths of its records
 /// are.

@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/temporary_mesh.h"
+#include "generate/generate.h"
+#include "io/mesh_file.h"
+#include "model/command.h"
+#include "smoothing/bounded_run.h"
+
+namespace isorelax::model {
+namespace {
+
+/// Meshes that arrive with triangles upside down.
+class UntangledRunTest : public ::testing::Test {
+ protected:
+  void act(const Command& command) {
+    execute(session, command);
+    finish(session);
+  }
+  void open() {
+    const std::filesystem::path path = folder / "tangled.off";
+    (void)write_mesh(path, tangled);
+    act(OpenFile{path});
+  }
+  [[nodiscard]] std::size_t inverted() const { return session.current->quality().inverted; }
+
+  TriangleMesh tangled = generate(ShapeKind::random_square, {.seed = 3, .triangles = 400, .tangle = 0.2});
+  test::TemporaryFolder folder;
+  Session session;
+};
+
+TEST_F(UntangledRunTest, OpeningSaysWhatARunWillDoAndARunDoesIt) {
+  open();
+  ASSERT_GT(inverted(), 50U);
+  ASSERT_EQ(session.notes.size(), 1U);
+  EXPECT_EQ(session.notes[0],
+            std::to_string(inverted()) + " triangles lie upside down: a run turns all of them first");
+  act(Step{});
+  EXPECT_EQ(inverted(), 0U);
+  EXPECT_LE(session.last_step->after.energy, session.last_step->before.energy);
+}
+
+TEST_F(UntangledRunTest, TheStatesAreThoseOfABoundedRunToTheBit) {
+  open();
+  act(model::Run{});
+  std::vector<Vec3> positions = tangled.positions;
+  ProblemOptions options;
+  options.exponent = session.smoothing.exponent;
+  run_bounded(
+      positions, tangled.triangles, options,
+      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
+      {.max = {}, .automatic = AutomaticLimit::widest});
+  EXPECT_TRUE(std::ranges::equal(session.current->positions(), positions));
+  ASSERT_TRUE(session.surface);
+  EXPECT_FALSE(session.surface->is_over);
+  EXPECT_LT(session.surface->deviation.max, 1e-12) << "it covers the same square";
+}
+
+TEST_F(UntangledRunTest, ItsFirstStepIsExplainedBeforeAndAfterItIsMade) {
+  open();
+  act(SetStepBudget{0});
+  act(SelectVertex{100});
+  ASSERT_TRUE(session.inspection.vertex);
+  const VertexExplanation foreseen = *session.inspection.vertex;
+  act(model::Run{});
+  act(Seek{1, {}});
+  ASSERT_TRUE(session.inspection.step && session.inspection.vertex);
+  EXPECT_EQ(session.inspection.step->mismatch, "");
+  EXPECT_EQ(session.inspection.vertex->before, foreseen.before);
+  EXPECT_EQ(session.inspection.vertex->after, foreseen.after);
+  EXPECT_EQ(session.current->positions()[100], foreseen.after);
+}
+
+TEST_F(UntangledRunTest, UndoBringsTheTangleBackAndBranchesStaySound) {
+  open();
+  const std::size_t before = inverted();
+  act(model::Run{});
+  const std::vector<Vec3> smoothed(session.current->positions().begin(), session.current->positions().end());
+  act(Undo{});
+  EXPECT_EQ(inverted(), before);
+  act(Redo{});
+  act(Seek{4, {}});
+  SmoothingSettings settings = session.smoothing;
+  settings.mu_a = 0.4;
+  settings.iterations = 5;
+  act(SetSmoothing{settings, "test"});
+  ASSERT_TRUE(session.current->energy);
+  act(model::Run{});
+  EXPECT_EQ(inverted(), 0U);
+  ASSERT_EQ(session.timeline.branches.size(), 2U);
+  const std::vector<Vec3> end(session.current->positions().begin(), session.current->positions().end());
+  act(SaveTrace{folder / "run.trace"});
+  Session other;
+  execute(other, OpenFile{folder / "run.trace"});
+  finish(other);
+  EXPECT_EQ(other.current->quality().inverted, before);
+  execute(other, SelectVertex{100});
+  for (const unsigned k : {1U, 5U, 9U}) {
+    execute(other, Seek{k, {}});
+    finish(other);
+    ASSERT_TRUE(other.inspection.step) << k;
+    EXPECT_EQ(other.inspection.step->mismatch, "") << k;
+  }
+  EXPECT_TRUE(std::ranges::equal(other.current->positions(), end));
+}
+
+TEST_F(UntangledRunTest, ATypedDistanceMayForbidIt) {
+  tangled = generate(ShapeKind::random_square, {.triangles = 100});
+  const Topology topology(tangled.triangles, tangled.vertex_count());
+  Index thrown = 0;
+  while (topology.flags(thrown) != 0) ++thrown;
+  tangled.positions[thrown] = Vec3(2, 2, 0);  // far outside: what it covers there would go with it
+  open();
+  ASSERT_GT(inverted(), 0U);
+  SmoothingSettings settings = session.smoothing;
+  settings.reach = Reach::typed;
+  settings.max_deviation = 0.01;
+  act(SetSmoothing{settings, "test"});
+  act(model::Run{});
+  EXPECT_EQ(session.current->positions()[thrown], tangled.positions[thrown]);
+  settings.reach = Reach::widest;
+  act(SetSmoothing{settings, "test"});
+  act(Reset{});
+  act(model::Run{});
+  EXPECT_EQ(inverted(), 0U);
+}
+
+}  // namespace
+}  // namespace isorelax::model
