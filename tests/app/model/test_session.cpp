@@ -8,6 +8,7 @@
 
 #include "app/temporary_mesh.h"
 #include "model/command.h"
+#include "model/jobs.h"
 
 namespace isorelax::model {
 namespace {
@@ -130,6 +131,23 @@ TEST_F(SessionTest, TheEndOfARunTellsHowFarTheSurfaceWent) {
   EXPECT_LE(session.surface->deviation.max, 0.005);
   EXPECT_GT(session.surface->deviation.max, 0.0025);
   EXPECT_EQ(warnings(), 0) << last_message();
+}
+
+TEST_F(SessionTest, TheDistanceIsMeasuredHoweverMuchElseIsAsked) {
+  const std::filesystem::path path = folder / "torus.off";
+  (void)write_mesh(path, generate(ShapeKind::torus, {.triangles = 3000, .jitter = 0.3}));
+  do_and_wait(OpenFile{path});
+  run(3);
+  session.surface.reset();
+  // While one job runs, it is asked for, and then something else.
+  session.engine.post("",
+                      [](const JobContext&) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  session.engine.post("surface", surface_job(session.document, session.smoothing, session.current, {}));
+  execute(session, SelectVertex{8});
+  finish(session);
+  ASSERT_TRUE(session.surface);
+  EXPECT_EQ(session.surface->geometry, session.current->geometry);
+  EXPECT_GT(session.surface->deviation.max, 0);
 }
 
 TEST_F(SessionTest, PositionsAndSettingsAreUndoneSeparately) {

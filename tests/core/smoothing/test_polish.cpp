@@ -9,6 +9,7 @@
 #include "quality/report.h"
 #include "smoothing/angle_ring.h"
 #include "smoothing/polish.h"
+#include "smoothing/polish_state.h"
 
 namespace isorelax {
 namespace {
@@ -282,6 +283,37 @@ TEST(Polish, FollowsTheGradientsOfTheSoftMinima) {
           1e-4 * (1 + of_each.norm()));
     }
   }
+}
+
+TEST(PolishState, AVertexIsStuckUntilSomethingAboutItChanges) {
+  const TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.triangles = 200, .jitter = 0.1});
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
+  const Topology& topology = problem.topology;
+  Index vertex = 0;
+  while (topology.is_boundary(vertex)) ++vertex;
+  const Corner corner = topology.corners_of(vertex)[0];
+  const Index neighbour = mesh.triangles[corner / 3][next(corner % 3)];
+  Index far = mesh.vertex_count() - 1;
+  while (topology.is_boundary(far)) --far;
+  PolishState state(problem);
+  state.start(mesh.positions);
+  EXPECT_FALSE(state.is_stuck(vertex));
+  const auto move = [&](Index v) {
+    state.look_at(v);
+    state.move(v, state.positions()[v] + Vec3(1e-5, 0, 0));
+  };
+  state.note_stuck(vertex);
+  EXPECT_TRUE(state.is_stuck(vertex));
+  move(far);
+  EXPECT_TRUE(state.is_stuck(vertex));
+  move(neighbour);
+  EXPECT_FALSE(state.is_stuck(vertex));
+  state.note_stuck(vertex);
+  move(vertex);
+  EXPECT_FALSE(state.is_stuck(vertex));
+  state.note_stuck(vertex);
+  state.start(mesh.positions);
+  EXPECT_FALSE(state.is_stuck(vertex));
 }
 
 }  // namespace
