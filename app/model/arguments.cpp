@@ -186,11 +186,11 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   if (s.method == Method::near_isometry) {
     add("--solver", std::string(solver_option(s.solver)));
     add("--exponent", number_word(s.exponent));
+    add("--mu", number_word(s.mu_a));
+    add("--reference", reference_word(s));
   } else {
     add("--method", std::string(method_option(s.method)));
   }
-  add("--mu", number_word(s.mu_a));
-  add("--reference", reference_word(s));
   add("--boundary", std::string(kBoundaryWords.at(static_cast<std::size_t>(s.boundary))));
   add("--features", features_word(s));
   if (!s.pinned.empty()) add("--pin", pin_word(s.pinned));

@@ -35,6 +35,7 @@ void Executor::say(MessageKind kind, std::string text) {
 
 bool Executor::wait_for_run(std::function<void(Session&)> then) {
   if (!s_.is_running()) return false;
+  s_.then_polish_ = false;
   s_.when_idle_.push_back(std::move(then));
   s_.engine.cancel();
   return true;
@@ -45,7 +46,9 @@ void Executor::operator()(const OpenFile& command) {
   s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
-  s_.engine.post("load", load_job(command.path, s_.smoothing));
+  SmoothingSettings settings = s_.smoothing;
+  settings.pinned.clear();  // they are those of another mesh
+  s_.engine.post("load", load_job(command.path, std::move(settings)));
 }
 
 void Executor::operator()(const SaveFile& command) {
@@ -79,20 +82,14 @@ void Executor::operator()(const SetView& command) {
     ask_about_step();
 }
 
-void Executor::operator()(const Step& /*command*/) {
-  s_.then_polish_ = false;
-  if (s_.task == Task::move)
-    start_motion(1);
-  else
-    start_run(1, kind_here());
-}
-
 void Executor::operator()(const Pause& /*command*/) {
+  s_.then_polish_ = false;
   s_.when_idle_.clear();
   if (s_.is_running()) s_.engine.cancel();
 }
 
 void Executor::operator()(const Cancel& /*command*/) {
+  s_.then_polish_ = false;
   s_.when_idle_.clear();
   s_.engine.cancel();
 }
@@ -166,8 +163,8 @@ void Executor::end_run() {
   s_.run_start_.reset();
   s_.rows_at_start_.clear();
   measure_energy_if_changed();
-  ask_about_step();
   go_on_when_idle();
+  ask_about_step();
 }
 
 // Asks the worker for the energies under the present settings where a state has those of other ones.
@@ -202,6 +199,7 @@ void Executor::operator()(const Collect& /*command*/) {
   s_.seeking_ = false;
   if (s_.activity != Activity::idle) end_run();
   go_on_when_idle();
+  if (!s_.engine.busy() && std::exchange(s_.measure_surface_later_, false)) measure_surface();
 }
 
 void Executor::remember_recent(const std::filesystem::path& path) {
@@ -308,10 +306,12 @@ void Executor::operator()(RunEnded& event) {
 }
 
 void Executor::measure_surface() {
-  if (!s_.current || s_.is_running() || s_.current->geometry == s_.original->geometry ||
-      s_.document->mesh().triangle_count() > kMostMeasured)
+  if (!s_.current || s_.activity != Activity::idle || s_.seeking_ || s_.timeline.empty() ||
+      s_.current->geometry == s_.original->geometry || s_.document->mesh().triangle_count() > kMostMeasured)
     return;
-  s_.engine.post("surface", surface_job(s_.document, s_.smoothing, s_.current, place_shown()));
+  const Cursor& cursor = s_.timeline.cursor;
+  const Branch& branch = s_.timeline.branches[s_.timeline.holder(cursor.branch, cursor.iteration)];
+  s_.engine.post("surface", surface_job(s_.document, branch.settings, s_.current, place_shown()));
 }
 
 void Executor::operator()(SurfaceMeasured& event) {

@@ -56,7 +56,7 @@ class Executor {
   void operator()(Iterated& event);
   void operator()(RunEnded& event);
   void operator()(SurfaceMeasured& event);
-  void operator()(SurfaceGaveWay& /*event*/) { measure_surface(); }
+  void operator()(SurfaceGaveWay& /*event*/) { s_.measure_surface_later_ = true; }
   void operator()(Saved& event);
   void operator()(Failed& event);
   void operator()(RunFailed& event);
@@ -76,7 +76,10 @@ class Executor {
   void say(MessageKind kind, std::string text);
   void start_run(unsigned iterations, PartKind kind);
   [[nodiscard]] PartKind kind_here() const;
+  void start_polish();
   void polish_when_idle(PartKind after);
+  void leave_polish_ahead();
+  [[nodiscard]] bool is_polished() const;
   void prepare_run(unsigned iterations);
   void forget_motion_energy();
   void start_motion(unsigned steps);

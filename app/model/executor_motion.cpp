@@ -70,7 +70,9 @@ void Executor::operator()(const OpenSphere& command) {
   s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
-  s_.engine.post("load", sphere_job(command.sphere, s_.smoothing));
+  SmoothingSettings settings = s_.smoothing;
+  settings.pinned.clear();  // they are those of another mesh
+  s_.engine.post("load", sphere_job(command.sphere, std::move(settings)));
 }
 
 void Executor::operator()(const Move& command) {

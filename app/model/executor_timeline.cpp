@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kHitsKept = 1000;
 constexpr std::size_t kMostBeside = 3;
+constexpr const char* kPolished = "The polish has ended: nothing gets better here.";
 constexpr const char* kNoStages = "Steps of a moving surface have no stages.";
 
 bool any_active(const std::vector<Breakpoint>& points) {
@@ -47,23 +48,62 @@ PartKind Executor::kind_here() const {
   return s_.continues_branch() ? s_.timeline.current()->kind : PartKind::solver;
 }
 
+// A polish goes on with what is before it: ahead of the cursor it is not in the way of that.
+void Executor::leave_polish_ahead() {
+  Cursor& cursor = s_.timeline.cursor;
+  while (const Branch* branch = s_.timeline.current()) {
+    if (branch->kind != PartKind::polish || cursor.iteration >= branch->start || !branch->parent) return;
+    cursor.branch = *branch->parent;
+  }
+}
+
+// Whether nothing is left to polish here.
+bool Executor::is_polished() const {
+  const Branch* branch = s_.timeline.current();
+  return kind_here() == PartKind::polish && branch->result && has_converged(*branch->result) &&
+         s_.timeline.cursor.iteration == branch->tip();
+}
+
 void Executor::operator()(const Run& command) {
   s_.then_polish_ = false;
   if (s_.task == Task::move) return start_motion(command.steps);
-  const Branch* branch = s_.timeline.current();
+  leave_polish_ahead();
+  if (is_polished()) return say(MessageKind::info, kPolished);
   s_.then_polish_ = s_.smoothing.polish != Polish::none;
-  const bool is_done = s_.continues_branch() && !branch->from_file && branch->result &&
-                       s_.timeline.cursor.iteration == branch->tip() && has_converged(*branch->result);
-  const bool goes_on = !(is_done && s_.then_polish_);
-  const PartKind kind = goes_on ? kind_here() : PartKind::polish;
-  const unsigned all = kind == PartKind::polish ? polish_steps() : s_.smoothing.iterations;
-  start_run(goes_on && s_.remaining > 0 ? s_.remaining : all, kind);
+  const Branch* branch = s_.timeline.current();
+  const bool is_done = s_.continues_branch() && branch->result && has_converged(*branch->result) &&
+                       s_.timeline.cursor.iteration == branch->tip();
+  if (is_done && s_.then_polish_) return start_polish();
+  const unsigned all = kind_here() == PartKind::polish ? polish_steps() : s_.smoothing.iterations;
+  start_run(s_.remaining > 0 ? s_.remaining : all, kind_here());
+}
+
+void Executor::operator()(const Step& /*command*/) {
+  s_.then_polish_ = false;
+  if (s_.task == Task::move) return start_motion(1);
+  leave_polish_ahead();
+  if (is_polished()) return say(MessageKind::info, kPolished);
+  start_run(1, kind_here());
+}
+
+// Over the one that is recorded, if there is one, and from its end on.
+void Executor::start_polish() {
+  s_.then_polish_ = false;
+  const Timeline& timeline = s_.timeline;
+  const Cursor at = timeline.cursor;
+  const auto known = std::ranges::find_if(timeline.branches, [&](const Branch& b) {
+    return b.kind == PartKind::polish && b.parent == at.branch && b.start == at.iteration &&
+           same_steps(b.settings, s_.smoothing) && b.settings.polish == s_.smoothing.polish;
+  });
+  if (known != timeline.branches.end())
+    s_.timeline.cursor.branch = static_cast<unsigned>(known - timeline.branches.begin());
+  start_run(polish_steps(), PartKind::polish);
 }
 
 // After the steps of a solver, if that was asked for.
 void Executor::polish_when_idle(PartKind after) {
   if (!std::exchange(s_.then_polish_, false) || after == PartKind::polish) return;
-  s_.when_idle_.push_front([](Session& s) { Executor(s).start_run(polish_steps(), PartKind::polish); });
+  s_.when_idle_.push_front([](Session& s) { Executor(s).start_polish(); });
 }
 
 void Executor::go_on_when_idle() {
@@ -108,7 +148,8 @@ bool Executor::run_over_recorded(unsigned iterations) {
   if (from >= branch.tip()) return false;
   const unsigned to = std::min(from + iterations, branch.tip());
   const unsigned rest = from + iterations - to;
-  const bool ended = rest > 0 && branch.result && has_converged(*branch.result);
+  const bool ended = branch.result && to == branch.tip() && has_converged(*branch.result);
+  const bool goes_on = rest > 0 && !ended && !branch.from_file;
   const auto go_on = [rest, kind = branch.kind](Session& s) { Executor(s).start_run(rest, kind); };
   if (any_active(s_.breakpoints)) {
     s_.activity = Activity::running;
@@ -118,17 +159,22 @@ bool Executor::run_over_recorded(unsigned iterations) {
         scan_job(
             {s_.document, branch.settings, branch.recording, branch.start, {at, from, to, s_.breakpoints}}));
     s_.after_scan_ = nullptr;
-    if (rest > 0 && !ended) s_.after_scan_ = go_on;
+    if (goes_on)
+      s_.after_scan_ = go_on;
+    else
+      s_.after_scan_ = [result = ended ? branch.result : std::nullopt, kind = branch.kind](Session& s) {
+        s.last_run = result;
+        Executor(s).polish_when_idle(kind);
+      };
     s_.scan_to_ = to;
     return true;
   }
   seek(at, to);
-  if (ended) {
-    s_.last_run = branch.result;
-    polish_when_idle(branch.kind);
-  } else if (rest > 0 && !branch.from_file) {
+  if (ended) s_.last_run = branch.result;
+  if (goes_on)
     s_.when_idle_.push_back(go_on);
-  }
+  else
+    polish_when_idle(branch.kind);
   return true;
 }
 
@@ -142,6 +188,7 @@ void Executor::operator()(Scanned& event) {
   if (!event.broken_by.empty())
     say(MessageKind::info, "Stopped at iteration " + std::to_string(*event.stop) + ": " + event.broken_by);
   auto then = std::exchange(s_.after_scan_, nullptr);
+  if (event.stop) s_.then_polish_ = false;
   if (!event.stop && then) s_.when_idle_.push_back(std::move(then));
 }
 
@@ -318,7 +365,7 @@ void Executor::ask_about_step() {
 
 void Executor::operator()(Inspected& event) {
   s_.step_memory = event.memory;
-  if (event.number != s_.inspect_number_ || s_.seeking_) return;
+  if (event.number != s_.inspect_number_ || s_.seeking_ || s_.is_running()) return;
   Inspection& inspection = s_.inspection;
   inspection.step = StepView{s_.timeline.cursor,        std::move(event.record),
                              std::move(event.before),   std::move(event.before_state),

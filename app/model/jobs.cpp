@@ -105,10 +105,13 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   Workbench& bench = context.bench();
   bench.steps().set_budget(request.step_budget);
   if (!request.recording->has_begun()) {
-    BasePtr base = base_at(*request.document, request.left);
+    const TriangleMesh& mesh = request.document->mesh();
+    BasePtr base;  // what a run began from that is left on its way
+    if (!same_bits(request.start->positions(), mesh.positions))
+      base = base_at(*request.document, request.left);
     if (!base) base = bench.start_of(request.document, request.settings).base;
-    request.recording->begin(about(*request.document, request.settings), request.document->mesh(),
-                             request.start->positions(), std::move(base));
+    request.recording->begin(about(*request.document, request.settings), mesh, request.start->positions(),
+                             std::move(base));
   }
   const Workbench::ProblemPtr problem =
       bench.problem(request.document, request.settings, request.recording->base());
@@ -234,7 +237,9 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     const std::vector<Vec3>& start = base ? *base : mesh.positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings, base);
     const double limit = deviation_limit(settings, start, *problem);
-    const SurfaceWatch::Finding found = SurfaceWatch(start, start, *problem).look(state->positions(), limit);
+    const std::vector<Vec3>& surface = settings.reach == Reach::typed ? mesh.positions : start;
+    const SurfaceWatch::Finding found =
+        SurfaceWatch(surface, start, *problem).look(state->positions(), limit);
     SurfaceMeasured measured{state->geometry, found.deviation, limit, found.deviation.max > limit,
                              found.turned_triangles};
     // Triangles upside down in a plane cover what the sound ones cover as well.

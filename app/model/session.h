@@ -140,6 +140,7 @@ struct Session {
   MeshStatePtr run_start_;
   std::vector<IterationRow> rows_at_start_;
   unsigned run_iterations_ = 0;
+  bool measure_surface_later_ = false;
   bool then_polish_ = false;  // once the solver has done its steps
   Cursor cursor_at_start_;
   std::vector<Cursor> taught_;  // where Teach has come to

@@ -5,6 +5,15 @@
 
 namespace isorelax::model {
 
+SmoothingSettings without_unused(SmoothingSettings settings) {
+  const SmoothingSettings unused;
+  if (settings.reference != ReferenceKind::edge_length) settings.edge_length = unused.edge_length;
+  if (settings.reference != ReferenceKind::file) settings.reference_file = unused.reference_file;
+  if (settings.features != FeatureRule::angle) settings.feature_deg = unused.feature_deg;
+  if (settings.reach != Reach::typed) settings.max_deviation = unused.max_deviation;
+  return settings;
+}
+
 bool same_energy(const SmoothingSettings& a, const SmoothingSettings& b) {
   return a.mu_a == b.mu_a && a.exponent == b.exponent && a.reference == b.reference &&
          (a.reference != ReferenceKind::edge_length || a.edge_length == b.edge_length) &&

@@ -49,6 +49,9 @@ struct SmoothingSettings {
   bool operator==(const SmoothingSettings&) const = default;
 };
 
+/// The same with the numbers and names at their defaults that stand beside another choice.
+[[nodiscard]] SmoothingSettings without_unused(SmoothingSettings settings);
+
 /// Whether the energy of a mesh is the same number under both settings.
 [[nodiscard]] bool same_energy(const SmoothingSettings& a, const SmoothingSettings& b);
 

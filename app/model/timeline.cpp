@@ -39,11 +39,11 @@ std::vector<IterationRow> Timeline::rows(unsigned branch) const {
 }
 
 bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b) {
-  SmoothingSettings other = b;
+  SmoothingSettings other = without_unused(b);
   other.iterations = a.iterations;
   other.tolerance = a.tolerance;
   other.polish = a.polish;
-  return a == other;
+  return without_unused(a) == other;
 }
 
 std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent) {

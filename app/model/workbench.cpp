@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kProblemsKept = 4;
 
 // Settings that take no part in the problem do not make a new one.
-SmoothingSettings problem_part(SmoothingSettings settings) {
+SmoothingSettings problem_part(const SmoothingSettings& all) {
+  SmoothingSettings settings = without_unused(all);
   settings.iterations = 0;
   settings.tolerance = 0;
   settings.method = Method::near_isometry;
@@ -32,9 +33,9 @@ SmoothingSettings start_part(const SmoothingSettings& settings) {
   part.features = settings.features;
   part.feature_deg = settings.feature_deg;
   part.pinned = settings.pinned;
-  if (settings.reach == Reach::typed)
-    part.reach = settings.reach, part.max_deviation = settings.max_deviation;
-  return part;
+  if (settings.reach == Reach::typed) part.reach = Reach::typed;
+  part.max_deviation = settings.max_deviation;
+  return without_unused(part);
 }
 
 ReferenceChoice reference_choice(const SmoothingSettings& settings) {
@@ -104,11 +105,13 @@ PolishOptions polish_options(const SmoothingSettings& settings) {
 }
 
 /// The problem with what keeps every step near the surface.
-SmoothingProblem make_near_problem(std::span<const Vec3> original, std::span<const Triangle> triangles,
+SmoothingProblem make_near_problem(std::span<const Vec3> original, const TriangleMesh& mesh,
                                    const SmoothingSettings& settings) {
-  SmoothingProblem problem = make_problem(original, triangles, problem_options(settings));
+  SmoothingProblem problem = make_problem(original, mesh.triangles, problem_options(settings));
   const double limit = deviation_limit(settings, original, problem);
-  const double distance = SurfaceWatch(original, original, problem).largest_distance(limit);
+  // A typed limit is one from the mesh as opened, as that of run_bounded is.
+  const std::span<const Vec3> surface = settings.reach == Reach::typed ? mesh.positions : original;
+  const double distance = SurfaceWatch(surface, original, problem).largest_distance(limit);
   hold(problem, {.still = {}, .distance = distance}, original);
   return problem;
 }
@@ -152,7 +155,7 @@ const Workbench::Start& Workbench::start_of(const DocumentPtr& document, const S
   if (wanted.reach == Reach::typed) limit.max = wanted.max_deviation;
   MadeStart made{document, wanted, {}};
   made.start.untangled = untangle_start(positions, mesh.triangles, problem_options(wanted), limit);
-  if (!made.start.untangled.result.moved.empty())
+  if (made.start.untangled.result.before > 0)
     made.start.base = std::make_shared<const std::vector<Vec3>>(std::move(positions));
   start_ = std::move(made);
   return start_->start;
@@ -172,7 +175,7 @@ Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const Smoo
     const TriangleMesh& mesh = document->mesh();
     problems_.push_front({document, wanted, base,
                           std::make_shared<const SmoothingProblem>(
-                              make_near_problem(base ? *base : mesh.positions, mesh.triangles, settings))});
+                              make_near_problem(base ? *base : mesh.positions, mesh, settings))});
   }
   return problems_.front().problem;
 }

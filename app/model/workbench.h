@@ -22,7 +22,8 @@ class Workbench {
 
   /// What the runs of a document start from.
   struct Start {
-    BasePtr base;  ///< the mesh as opened with triangles turned that lay upside down; null: there are none
+    BasePtr
+        base;  ///< the mesh as opened, with what can be turned of what lies upside down; null: nothing does
     UntangledStart untangled;
   };
   /// Found anew only for another document, or other settings that play a part in it. Throws Error.

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <functional>
+#include <thread>
 
 #include "app/temporary_mesh.h"
 #include "generate/generate.h"
@@ -176,9 +178,88 @@ TEST_F(PolishRunTest, WordsReadBackAsTheSettings) {
       EXPECT_EQ(*from_words(words), settings);
     }
   }
+  for (const Method method : {Method::laplacian, Method::angle_based}) {
+    settings.method = method;
+    const auto words = to_words(settings);
+    EXPECT_EQ(std::ranges::find(words, "--mu"), words.end())
+        << "smooth knows none of a method without energy";
+    EXPECT_EQ(*from_words(words), settings);
+  }
   EXPECT_FALSE(from_words(std::vector<std::string>{"--polish", "all"}));
   EXPECT_FALSE(from_words(std::vector<std::string>{"--max-deviation", "far"}));
   EXPECT_FALSE(from_words(std::vector<std::string>{"--max-deviation", "-1"}));
+}
+
+TEST_F(PolishRunTest, WhatIsRecordedIsNotPolishedAnew) {
+  act(OpenFile{folder.make_square(400)});
+  for (const unsigned iterations : {1000U, 5U}) {
+    set([&](SmoothingSettings& s) {
+      s.polish = Polish::worst;
+      s.iterations = iterations;
+    });
+    act(Reset{});
+    act(model::Run{});
+    const auto branches = timeline().branches.size();
+    const std::vector<Vec3> polished = shown();
+    const unsigned last = timeline().last();
+    for (const char* point : {"", "min_angle < 0"}) {
+      act(SetBreakpoints{{}});
+      if (*point != 0) act(SetBreakpoints{{make_breakpoint(point, BreakAction::stop)}});
+      act(Reset{});
+      act(model::Run{});
+      EXPECT_EQ(session.current->iteration, last) << iterations << point;
+      EXPECT_EQ(shown(), polished);
+      EXPECT_EQ(timeline().branches.size(), branches) << "the same runs";
+    }
+    act(SetBreakpoints{{}});
+    act(model::Run{});
+    act(Step{});
+    EXPECT_EQ(timeline().last(), last) << "a polish that has ended makes no empty steps";
+    session.timeline.cursor = {};
+  }
+}
+
+TEST_F(PolishRunTest, NothingIsPolishedOnceSomethingElseIsAskedFor) {
+  act(OpenFile{folder.make_square(400)});
+  set([](SmoothingSettings& s) { s.polish = Polish::worst; });
+  for (const Command& command : {Command(Pause{}), Command(Seek{2, {}}), Command(Undo{})}) {
+    act(Reset{});
+    session.timeline = {};
+    execute(session, model::Run{});
+    std::atomic<bool> ended = false;
+    session.engine.post("", [&](const JobContext&) { ended = true; });
+    while (!ended) std::this_thread::yield();
+    execute(session, command);  // the solver has ended, but nobody has looked
+    finish(session);
+    EXPECT_EQ(timeline().branches.size(), 1U);
+  }
+}
+
+TEST_F(PolishRunTest, NoStepIsShownWhileAPolishRuns) {
+  act(OpenFile{folder.make_square(400)});
+  act(SelectVertex{130});
+  set([](SmoothingSettings& s) { s.polish = Polish::both; });
+  execute(session, model::Run{});
+  while (session.engine.busy()) {
+    execute(session, Collect{});
+    EXPECT_FALSE(session.is_running() && session.inspection.step);
+  }
+  finish(session);
+  EXPECT_TRUE(session.inspection.step);
+  EXPECT_TRUE(session.inspection.path) << "and the way of the vertex is known afterwards";
+}
+
+TEST_F(PolishRunTest, WhatIsNotInUseBeginsNoBranch) {
+  act(OpenFile{folder.make_square(400)});
+  act(Step{});
+  set([](SmoothingSettings& s) {
+    s.max_deviation = 0.1;
+    s.edge_length = 3;
+    s.feature_deg = 50;
+  });
+  EXPECT_TRUE(session.continues_branch());
+  set([](SmoothingSettings& s) { s.reach = Reach::typed; });
+  EXPECT_FALSE(session.continues_branch());
 }
 
 }  // namespace

@@ -127,5 +127,61 @@ TEST_F(UntangledRunTest, ATypedDistanceMayForbidIt) {
   EXPECT_EQ(inverted(), 0U);
 }
 
+TEST_F(UntangledRunTest, ABranchFromTheStartBeginsAsItsOwnSettingsSay) {
+  open();
+  act(model::Run{});
+  Index thrown = 0;
+  const auto x = session.current->positions();
+  while (x[thrown] == tangled.positions[thrown] || (x[thrown] - tangled.positions[thrown]).norm() < 0.1)
+    ++thrown;
+  act(Seek{0, {}});
+  act(TogglePin{thrown});
+  act(model::Run{});
+  ASSERT_EQ(session.timeline.branches.size(), 2U);
+  EXPECT_EQ(session.current->positions()[thrown], tangled.positions[thrown]) << "it is pinned";
+  Session other;
+  execute(other, OpenFile{folder / "tangled.off"});
+  finish(other);
+  execute(other, TogglePin{thrown});
+  execute(other, model::Run{});
+  finish(other);
+  EXPECT_TRUE(std::ranges::equal(session.current->positions(), other.current->positions()));
+}
+
+TEST_F(UntangledRunTest, PinsOfAnotherMeshPlayNoPart) {
+  open();
+  act(TogglePin{200});
+  tangled = generate(ShapeKind::random_square, {.seed = 4, .triangles = 40, .tangle = 0.3});
+  open();
+  EXPECT_TRUE(session.smoothing.pinned.empty());
+  ASSERT_TRUE(session.current->energy) << session.notes.front();
+}
+
+TEST_F(UntangledRunTest, ATypedDistanceIsOneFromTheMeshAsOpened) {
+  tangled = generate(ShapeKind::random_square, {.seed = 2, .triangles = 100});
+  const Topology topology(tangled.triangles, tangled.vertex_count());
+  Index thrown = 0;
+  while (topology.flags(thrown) != 0) ++thrown;
+  tangled.positions[thrown] = Vec3(1.05, 1.05, 0);
+  open();
+  SmoothingSettings settings = session.smoothing;
+  settings.boundary = BoundaryRule::free;
+  settings.reach = Reach::typed;
+  settings.max_deviation = 0.06;
+  act(SetSmoothing{settings, "test"});
+  act(model::Run{});
+  std::vector<Vec3> positions = tangled.positions;
+  ProblemOptions options;
+  options.exponent = settings.exponent;
+  options.boundary = BoundaryRule::free;
+  double distance = 0;
+  run_bounded(
+      positions, tangled.triangles, options,
+      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
+      {.max = 0.06, .automatic = {}}, {}, {},
+      [&](const RunPart& part, std::span<const Vec3>) { distance = part.holds.distance; });
+  EXPECT_TRUE(std::ranges::equal(session.current->positions(), positions)) << distance;
+}
+
 }  // namespace
 }  // namespace isorelax::model
