@@ -94,62 +94,6 @@ void Executor::operator()(const Cancel& /*command*/) {
   s_.engine.cancel();
 }
 
-void Executor::start_run(unsigned iterations, PartKind kind) {
-  if (!s_.current) {
-    say(MessageKind::info, "Open a mesh first.");
-    return;
-  }
-  if (s_.seeking_ && s_.activity == Activity::idle) {
-    s_.when_idle_.push_back([iterations, kind](Session& s) { Executor(s).start_run(iterations, kind); });
-    return;
-  }
-  if (s_.activity != Activity::idle || iterations == 0) return;
-  if (refuses_to_smooth() || (kind == kind_here() && run_over_recorded(iterations))) return;
-  forget_motion_energy();
-  prepare_run(iterations);
-  const Place left = begin_branch(kind);
-  // A new series starts where this one will: the plots need its first point.
-  if (s_.current->energy && !s_.current->energy->of_record &&
-      (s_.history.empty() || s_.history.back().series != s_.series)) {
-    const QualityReport& q = s_.current->quality();
-    s_.history.push_back(
-        {s_.current->iteration, s_.current->energy->total, q.min_angle_deg, q.max_angle_deg, 0, s_.series});
-  }
-  s_.engine.post("run", run_job({s_.document, s_.smoothing, s_.current, iterations, s_.series,
-                                 s_.timeline.current()->recording, left, s_.timeline.cursor.branch, kind,
-                                 s_.breakpoints, s_.step_budget}));
-}
-
-// A smoother keeps to the mesh as opened; a surface that has moved is another one.
-bool Executor::refuses_to_smooth() {
-  const Branch* branch = s_.moving();
-  if (branch == nullptr || s_.timeline.cursor.iteration == branch->start) return false;
-  say(MessageKind::info,
-      "Smoothing keeps to the mesh as opened, which this surface has left: go to its start, or save this "
-      "state and open it.");
-  return true;
-}
-
-// At its start a moving surface is a mesh like any other, but for how it was measured.
-void Executor::forget_motion_energy() {
-  if (s_.moving() == nullptr) return;
-  auto plain = std::make_shared<MeshState>(*s_.current);
-  plain->energy.reset();
-  s_.current = s_.current->geometry == s_.original->geometry ? s_.original : plain;
-}
-
-void Executor::prepare_run(unsigned iterations) {
-  s_.run_start_ = s_.current;
-  s_.rows_at_start_ = s_.history;
-  s_.cursor_at_start_ = s_.timeline.cursor;
-  s_.run_iterations_ = iterations;
-  s_.last_run.reset();
-  s_.broken_by.clear();
-  s_.inspection = {};
-  s_.timeline.cursor.stage.reset();
-  s_.activity = Activity::running;
-}
-
 void Executor::end_run() {
   const bool was_running = s_.is_running();
   s_.activity = Activity::idle;
@@ -284,25 +228,6 @@ void Executor::operator()(Iterated& event) {
   if (!event.state) return;
   show(event.state);
   s_.timeline.cursor.iteration = event.state->iteration;
-}
-
-void Executor::operator()(RunEnded& event) {
-  const bool cancelled = event.result.stopped == StopReason::cancelled;
-  s_.remaining = cancelled && event.result.iterations < s_.run_iterations_
-                     ? s_.run_iterations_ - event.result.iterations
-                     : 0;
-  s_.last_run = event.result;
-  s_.broken_by = event.broken_by;
-  if (!s_.timeline.empty()) {
-    Branch& branch = s_.timeline.branches[s_.timeline.cursor.branch];
-    branch.result = event.result;
-    branch.ended = event.broken_by.empty() ? std::string(to_string(event.result.stopped)) : event.broken_by;
-    if (!cancelled && event.broken_by.empty() && event.result.stopped != StopReason::fixed)
-      polish_when_idle(branch.kind);
-  }
-  s_.then_polish_ = false;
-  end_run();
-  measure_surface();
 }
 
 void Executor::measure_surface() {

@@ -85,14 +85,14 @@ TEST_F(EditorTest, StatesLookAsAccepted) {
 }
 
 TEST_F(EditorTest, OneClickRunsAndPolishesWithinATypedDistance) {
-  open(folder.make_square());
+  open(folder.make_square(100));
   click("reach/Typed");
   click("max-deviation");
   type("0.2");
   press(ui::Key::enter);
   EXPECT_EQ(editor.session().smoothing.reach, model::Reach::typed);
   EXPECT_NEAR(editor.session().smoothing.max_deviation, 0.002, 1e-12);
-  click("polish/Both");
+  click("polish/Worst");
   click("run");
   ASSERT_EQ(editor.session().timeline.branches.size(), 2U);
   EXPECT_EQ(editor.session().timeline.branches[1].kind, PartKind::polish);

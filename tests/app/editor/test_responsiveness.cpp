@@ -60,13 +60,13 @@ TEST(Responsiveness, NoFrameWaitsForLoadingSmoothingMovingOrSaving) {
   ASSERT_TRUE(session.current);
   model::SmoothingSettings settings = session.smoothing;
   settings.mu_a = 0.5;
-  settings.iterations = 10;
+  settings.iterations = 4;
   settings.tolerance = 0;
   model::execute(session, model::SetSmoothing{settings, "Settings"});
   work_through("settings", idle);
   model::execute(session, model::Run{});
   work_through("run", idle);
-  EXPECT_EQ(session.current->iteration, 10U);
+  EXPECT_EQ(session.current->iteration, 4U);
   model::execute(session, model::SelectNextWorst{});
   model::execute(session, model::Reset{});
   work_through("reset", idle);

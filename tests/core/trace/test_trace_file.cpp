@@ -60,7 +60,8 @@ TEST(TraceFile, RefusesEveryTruncationAndWhatFollowsTheEnd) {
     (void)parse_trace(later, "t");
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("version " + std::to_string(kTraceVersion + 1)), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("version " + std::to_string(kTraceVersion + 1)),
+              std::string::npos);
   }
 }
 
