@@ -46,9 +46,7 @@ void Executor::operator()(const OpenFile& command) {
   s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
-  SmoothingSettings settings = s_.smoothing;
-  settings.pinned.clear();  // they are those of another mesh
-  s_.engine.post("load", load_job(command.path, std::move(settings)));
+  s_.engine.post("load", load_job(command.path, s_.smoothing));
 }
 
 void Executor::operator()(const SaveFile& command) {

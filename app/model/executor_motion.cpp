@@ -70,9 +70,7 @@ void Executor::operator()(const OpenSphere& command) {
   s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
-  SmoothingSettings settings = s_.smoothing;
-  settings.pinned.clear();  // they are those of another mesh
-  s_.engine.post("load", sphere_job(command.sphere, std::move(settings)));
+  s_.engine.post("load", sphere_job(command.sphere, s_.smoothing));
 }
 
 void Executor::operator()(const Move& command) {

@@ -76,7 +76,7 @@ void Executor::start_polish() {
   const Cursor at = timeline.cursor;
   const auto known = std::ranges::find_if(timeline.branches, [&](const Branch& b) {
     return b.kind == PartKind::polish && b.parent == at.branch && b.start == at.iteration &&
-           same_steps(b.settings, s_.smoothing) && b.settings.polish == s_.smoothing.polish;
+           same_steps(b, s_.smoothing);
   });
   if (known != timeline.branches.end())
     s_.timeline.cursor.branch = static_cast<unsigned>(known - timeline.branches.begin());

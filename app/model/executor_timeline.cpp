@@ -23,8 +23,7 @@ bool Session::continues_branch() const {
   if (branch == nullptr || branch->motion.has_value() != (task == Task::move)) return false;
   if (branch->motion)
     return same_motion(*branch->motion, motion) && timeline.cursor.iteration >= branch->start;
-  return branch->not_redone.empty() && same_steps(branch->settings, smoothing) &&
-         (branch->kind == PartKind::solver || branch->settings.polish == smoothing.polish) &&
+  return branch->not_redone.empty() && same_steps(*branch, smoothing) &&
          timeline.cursor.iteration >= branch->start &&
          (!branch->from_file || timeline.cursor.iteration < branch->tip());
 }

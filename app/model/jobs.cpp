@@ -110,7 +110,7 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
     BasePtr base;  // what a run began from that is left on its way
     if (!same_bits(request.start->positions(), mesh.positions))
       base = base_at(*request.document, request.left);
-    if (!base) base = bench.start_of(request.document, request.settings).base;
+    base = bench.base_or_start(request.document, request.settings, base);
     request.recording->begin(about(*request.document, request.settings), mesh, request.start->positions(),
                              std::move(base));
   }
@@ -150,7 +150,8 @@ std::string will_be_turned(const UntangleResult& result) {
 }
 
 /// Measures a document that was made and shows it: Loaded. The workbench forgets the one before.
-void publish_loaded(const JobContext& context, DocumentPtr document, const SmoothingSettings& settings) {
+void publish_loaded(const JobContext& context, DocumentPtr document, SmoothingSettings settings) {
+  settings.pinned.clear();  // they are those of another mesh
   const std::string name = document->path.filename().string();
   const std::string cancelled = document->path.string() + ": opening was cancelled";
   Loaded loaded;
@@ -233,14 +234,12 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     }
     context.progress("Measuring the distance from the original", -1);
     const TriangleMesh& mesh = document->mesh();
-    BasePtr base = base_at(*document, place);
-    if (!base) base = context.bench().start_of(document, settings).base;
+    const BasePtr base = context.bench().base_or_start(document, settings, base_at(*document, place));
     const std::vector<Vec3>& start = base ? *base : mesh.positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings, base);
     const double limit = deviation_limit(settings, start, *problem);
-    const std::vector<Vec3>& surface = settings.reach == Reach::typed ? mesh.positions : start;
     const SurfaceWatch::Finding found =
-        SurfaceWatch(surface, start, *problem).look(state->positions(), limit);
+        SurfaceWatch(limited_from(settings, mesh, start), start, *problem).look(state->positions(), limit);
     SurfaceMeasured measured{state->geometry, found.deviation, limit, found.deviation.max > limit,
                              found.turned_triangles};
     // Triangles upside down in a plane cover what the sound ones cover as well.

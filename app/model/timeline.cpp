@@ -46,6 +46,11 @@ bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b) {
   return without_unused(a) == other;
 }
 
+bool same_steps(const Branch& branch, const SmoothingSettings& settings) {
+  return same_steps(branch.settings, settings) &&
+         (branch.kind == PartKind::solver || branch.settings.polish == settings.polish);
+}
+
 std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent) {
   if (kind == PartKind::polish) {
     constexpr std::array<std::string_view, 4> kGoals{"none", "worst angles", "mean", "worst angles, mean"};

@@ -86,6 +86,9 @@ struct Timeline {
 /// Whether both settings make the same steps: how many, when to stop, and what follows aside.
 [[nodiscard]] bool same_steps(const SmoothingSettings& a, const SmoothingSettings& b);
 
+/// Whether the steps of a branch are those that these settings make.
+[[nodiscard]] bool same_steps(const Branch& branch, const SmoothingSettings& settings);
+
 /// What a branch of this kind is called: its method, or what it does otherwise than the one it left.
 [[nodiscard]] std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent);
 

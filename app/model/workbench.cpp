@@ -80,6 +80,11 @@ ProblemOptions problem_options(const SmoothingSettings& settings) {
   return options;
 }
 
+std::span<const Vec3> limited_from(const SmoothingSettings& settings, const TriangleMesh& mesh,
+                                   std::span<const Vec3> start) {
+  return settings.reach == Reach::typed ? mesh.positions : start;
+}
+
 double deviation_limit(const SmoothingSettings& settings, std::span<const Vec3> original,
                        const SmoothingProblem& problem) {
   switch (settings.reach) {
@@ -109,9 +114,8 @@ SmoothingProblem make_near_problem(std::span<const Vec3> original, const Triangl
                                    const SmoothingSettings& settings) {
   SmoothingProblem problem = make_problem(original, mesh.triangles, problem_options(settings));
   const double limit = deviation_limit(settings, original, problem);
-  // A typed limit is one from the mesh as opened, as that of run_bounded is.
-  const std::span<const Vec3> surface = settings.reach == Reach::typed ? mesh.positions : original;
-  const double distance = SurfaceWatch(surface, original, problem).largest_distance(limit);
+  const SurfaceWatch watch(limited_from(settings, mesh, original), original, problem);
+  const double distance = watch.largest_distance(limit);
   hold(problem, {.still = {}, .distance = distance}, original);
   return problem;
 }
@@ -161,21 +165,26 @@ const Workbench::Start& Workbench::start_of(const DocumentPtr& document, const S
   return start_->start;
 }
 
+BasePtr Workbench::base_or_start(const DocumentPtr& document, const SmoothingSettings& settings,
+                                 const BasePtr& known) {
+  return known ? known : start_of(document, settings).base;
+}
+
 Workbench::ProblemPtr Workbench::problem(const DocumentPtr& document, const SmoothingSettings& settings,
-                                         const BasePtr& wanted_base) {
-  const BasePtr base = wanted_base ? wanted_base : start_of(document, settings).base;
+                                         const BasePtr& base) {
+  const BasePtr made_from = base_or_start(document, settings, base);
   const SmoothingSettings wanted = problem_part(settings);
   const auto found = std::ranges::find_if(problems_, [&](const Made& made) {
-    return made.document == document && made.settings == wanted && made.base == base;
+    return made.document == document && made.settings == wanted && made.base == made_from;
   });
   if (found != problems_.end()) {
     std::rotate(problems_.begin(), found, std::next(found));
   } else {
     while (problems_.size() >= kProblemsKept) problems_.pop_back();
     const TriangleMesh& mesh = document->mesh();
-    problems_.push_front({document, wanted, base,
+    problems_.push_front({document, wanted, made_from,
                           std::make_shared<const SmoothingProblem>(
-                              make_near_problem(base ? *base : mesh.positions, mesh, settings))});
+                              make_near_problem(made_from ? *made_from : mesh.positions, mesh, settings))});
   }
   return problems_.front().problem;
 }

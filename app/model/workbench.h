@@ -29,6 +29,9 @@ class Workbench {
   /// Found anew only for another document, or other settings that play a part in it. Throws Error.
   const Start& start_of(const DocumentPtr& document, const SmoothingSettings& settings);
 
+  /// What a problem is made from: `known`, or else what the document starts from. Throws Error.
+  BasePtr base_or_start(const DocumentPtr& document, const SmoothingSettings& settings, const BasePtr& known);
+
   /// The problem for these settings; made anew only when it is none of the last few. Throws Error.
   ProblemPtr problem(const DocumentPtr& document, const SmoothingSettings& settings,
                      const BasePtr& base = {});
@@ -97,6 +100,11 @@ class Workbench {
 [[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem,
                                                       const SmoothingSettings& settings,
                                                       PartKind kind = PartKind::solver);
+
+/// What the distance of these settings is one from: the mesh as opened, or `start` where it is automatic, as
+/// in run_bounded.
+[[nodiscard]] std::span<const Vec3> limited_from(const SmoothingSettings& settings, const TriangleMesh& mesh,
+                                                 std::span<const Vec3> start);
 
 /// How far these settings let the surface go from `original`, over its bounding-box diagonal; infinite: any
 /// way.

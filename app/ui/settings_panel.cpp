@@ -154,8 +154,7 @@ void draw_reach(const Ui& ui) {
   constexpr std::array<std::string_view, 4> kLabels{"Near", "Wide", "Any", "Typed"};
   constexpr const char* kTip =
       "How far the surface may go from the mesh as opened. Near: the mean of edge length times dihedral "
-      "angle; "
-      "wide: 0.3 % of the diagonal, more where the mesh is coarse; any: all the way; or typed.";
+      "angle; wide: 0.3 % of the diagonal, more where the mesh is coarse; any: all the way; or typed.";
   row_label(ui, "Stay within", kTip);
   SmoothingSettings settings = ui.session.smoothing;
   const int choice =

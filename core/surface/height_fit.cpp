@@ -15,8 +15,7 @@ constexpr int term_count(int degree) {
 }
 
 constexpr int kMaxTerms = term_count(HeightFit::kMaxDegree);
-/// The rows of a least-squares system: the terms, then the height; as wide as
-/// vectors like it.
+/// The rows of a least-squares system: the terms, then the height; as wide as vectors like it.
 constexpr int kWidth = kMaxTerms + 2;
 constexpr int kHeight = kWidth - 1;
 using Row = std::array<double, kWidth>;

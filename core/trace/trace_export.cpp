@@ -1,6 +1,7 @@
 #include "trace/trace_export.h"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"

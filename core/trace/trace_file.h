@@ -19,8 +19,8 @@ namespace isorelax {
 /// PART begins with done (8 bytes), exponent, distance of the holds (doubles), flags (8: 1 polish, 2
 /// from_base, 4 words of its own), the count of vertices held still (8) and these vertices (4 each). Version
 /// 1 had no TraceParts; version 2 had after that count another one, of vertices about which the distance was
-/// kept, and those after the others: their parts are read as keeping it everywhere. Up to
-/// version 3 STEP did not tell what made the step.
+/// kept, and those after the others: their parts are read as keeping it everywhere. Up to version 3 STEP did
+/// not tell what made the step.
 inline constexpr std::string_view kTraceMagic = "ISOTRACE";
 inline constexpr std::uint32_t kTraceVersion = 4;
 inline constexpr std::uint32_t kFirstTraceVersion = 1;

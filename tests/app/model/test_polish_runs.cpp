@@ -2,46 +2,21 @@
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
-#include <functional>
 #include <thread>
 
-#include "app/temporary_mesh.h"
+#include "app/model/session_fixture.h"
 #include "generate/generate.h"
-#include "io/mesh_file.h"
 #include "model/arguments.h"
-#include "model/command.h"
-#include "smoothing/bounded_run.h"
 
 namespace isorelax::model {
 namespace {
 
 /// Runs that a last stage follows, and runs that keep a distance.
-class PolishRunTest : public ::testing::Test {
+class PolishRunTest : public SessionFixture {
  protected:
-  void act(const Command& command) {
-    execute(session, command);
-    finish(session);
-  }
-  void set(const std::function<void(SmoothingSettings&)>& change) {
-    SmoothingSettings settings = session.smoothing;
-    change(settings);
-    act(SetSmoothing{settings, "test"});
-  }
-  void open_torus() {
-    const std::filesystem::path path = folder / "torus.off";
-    (void)write_mesh(path, torus);
-    act(OpenFile{path});
-  }
-  [[nodiscard]] std::vector<Vec3> shown() const {
-    const auto x = session.current->positions();
-    return {x.begin(), x.end()};
-  }
-  [[nodiscard]] const Timeline& timeline() const { return session.timeline; }
+  void open_torus() { open(torus); }
 
   TriangleMesh torus = generate(ShapeKind::torus, {.seed = 3, .triangles = 140, .jitter = 0.3});
-  test::TemporaryFolder folder;
-  Session session;
 };
 
 TEST_F(PolishRunTest, APolishFollowsTheRunAsABranchOfItsOwn) {
@@ -68,14 +43,8 @@ TEST_F(PolishRunTest, TheStatesAreThoseOfABoundedRunToTheBit) {
     s.reach = Reach::nearest;
   });
   act(model::Run{});
-  std::vector<Vec3> positions = torus.positions;
-  ProblemOptions options;
-  options.exponent = session.smoothing.exponent;
-  run_bounded(
-      positions, torus.triangles, options,
-      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
-      {.max = {}, .automatic = AutomaticLimit::nearest}, {}, PolishOptions{.goal = PolishGoal::worst});
-  EXPECT_TRUE(std::ranges::equal(shown(), positions));
+  EXPECT_EQ(shown(), smoothed(torus, {.max = {}, .automatic = AutomaticLimit::nearest},
+                              PolishOptions{.goal = PolishGoal::worst}));
 }
 
 TEST_F(PolishRunTest, OneStepIsNotPolishedAndAPolishGoesOnStepByStep) {

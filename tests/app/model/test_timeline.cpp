@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/temporary_mesh.h"
+#include "app/model/session_fixture.h"
 #include "io/mesh_file.h"
 #include "model/arguments.h"
 #include "model/command.h"
@@ -13,18 +13,9 @@
 namespace isorelax::model {
 namespace {
 
-class TimelineTest : public ::testing::Test {
+class TimelineTest : public SessionFixture {
  protected:
   void open(std::size_t triangles = 400) { act(OpenFile{folder.make_square(triangles)}); }
-  void act(const Command& command) {
-    execute(session, command);
-    finish(session);
-  }
-  void set(const std::function<void(SmoothingSettings&)>& change) {
-    SmoothingSettings settings = session.smoothing;
-    change(settings);
-    act(SetSmoothing{settings, "test"});
-  }
   void run(unsigned iterations) {
     set([&](SmoothingSettings& s) {
       s.iterations = iterations;
@@ -32,14 +23,6 @@ class TimelineTest : public ::testing::Test {
     });
     act(model::Run{});
   }
-  [[nodiscard]] std::vector<Vec3> shown() const {
-    const auto x = session.current->positions();
-    return {x.begin(), x.end()};
-  }
-  [[nodiscard]] const Timeline& timeline() const { return session.timeline; }
-
-  test::TemporaryFolder folder;
-  Session session;
 };
 
 TEST_F(TimelineTest, ARunIsRecordedAndEveryIterationComesBackToTheBit) {

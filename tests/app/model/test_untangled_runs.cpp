@@ -1,34 +1,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 
-#include "app/temporary_mesh.h"
+#include "app/model/session_fixture.h"
 #include "generate/generate.h"
-#include "io/mesh_file.h"
-#include "model/command.h"
-#include "smoothing/bounded_run.h"
 
 namespace isorelax::model {
 namespace {
 
 /// Meshes that arrive with triangles upside down.
-class UntangledRunTest : public ::testing::Test {
+class UntangledRunTest : public SessionFixture {
  protected:
-  void act(const Command& command) {
-    execute(session, command);
-    finish(session);
-  }
-  void open() {
-    const std::filesystem::path path = folder / "tangled.off";
-    (void)write_mesh(path, tangled);
-    act(OpenFile{path});
-  }
+  void open() { SessionFixture::open(tangled); }
   [[nodiscard]] std::size_t inverted() const { return session.current->quality().inverted; }
 
   TriangleMesh tangled = generate(ShapeKind::random_square, {.seed = 3, .triangles = 400, .tangle = 0.2});
-  test::TemporaryFolder folder;
-  Session session;
 };
 
 TEST_F(UntangledRunTest, OpeningSaysWhatARunWillDoAndARunDoesIt) {
@@ -45,14 +31,7 @@ TEST_F(UntangledRunTest, OpeningSaysWhatARunWillDoAndARunDoesIt) {
 TEST_F(UntangledRunTest, TheStatesAreThoseOfABoundedRunToTheBit) {
   open();
   act(model::Run{});
-  std::vector<Vec3> positions = tangled.positions;
-  ProblemOptions options;
-  options.exponent = session.smoothing.exponent;
-  run_bounded(
-      positions, tangled.triangles, options,
-      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
-      {.max = {}, .automatic = AutomaticLimit::widest});
-  EXPECT_TRUE(std::ranges::equal(session.current->positions(), positions));
+  EXPECT_EQ(shown(), smoothed(tangled, {.max = {}, .automatic = AutomaticLimit::widest}));
   ASSERT_TRUE(session.surface);
   EXPECT_FALSE(session.surface->is_over);
   EXPECT_LT(session.surface->deviation.max, 1e-12) << "it covers the same square";
@@ -77,7 +56,6 @@ TEST_F(UntangledRunTest, UndoBringsTheTangleBackAndBranchesStaySound) {
   open();
   const std::size_t before = inverted();
   act(model::Run{});
-  const std::vector<Vec3> smoothed(session.current->positions().begin(), session.current->positions().end());
   act(Undo{});
   EXPECT_EQ(inverted(), before);
   act(Redo{});
@@ -90,7 +68,7 @@ TEST_F(UntangledRunTest, UndoBringsTheTangleBackAndBranchesStaySound) {
   act(model::Run{});
   EXPECT_EQ(inverted(), 0U);
   ASSERT_EQ(session.timeline.branches.size(), 2U);
-  const std::vector<Vec3> end(session.current->positions().begin(), session.current->positions().end());
+  const std::vector<Vec3> end = shown();
   act(SaveTrace{folder / "run.trace"});
   Session other;
   execute(other, OpenFile{folder / "run.trace"});
@@ -140,7 +118,7 @@ TEST_F(UntangledRunTest, ABranchFromTheStartBeginsAsItsOwnSettingsSay) {
   ASSERT_EQ(session.timeline.branches.size(), 2U);
   EXPECT_EQ(session.current->positions()[thrown], tangled.positions[thrown]) << "it is pinned";
   Session other;
-  execute(other, OpenFile{folder / "tangled.off"});
+  execute(other, OpenFile{folder / "mesh.off"});
   finish(other);
   execute(other, TogglePin{thrown});
   execute(other, model::Run{});
@@ -170,17 +148,9 @@ TEST_F(UntangledRunTest, ATypedDistanceIsOneFromTheMeshAsOpened) {
   settings.max_deviation = 0.06;
   act(SetSmoothing{settings, "test"});
   act(model::Run{});
-  std::vector<Vec3> positions = tangled.positions;
   ProblemOptions options;
-  options.exponent = settings.exponent;
   options.boundary = BoundaryRule::free;
-  double distance = 0;
-  run_bounded(
-      positions, tangled.triangles, options,
-      [](const SmoothingProblem& problem) { return isorelax::make_smoother(problem, Solver::automatic); }, {},
-      {.max = 0.06, .automatic = {}}, {}, {},
-      [&](const RunPart& part, std::span<const Vec3>) { distance = part.holds.distance; });
-  EXPECT_TRUE(std::ranges::equal(session.current->positions(), positions)) << distance;
+  EXPECT_EQ(shown(), smoothed(tangled, {.max = 0.06, .automatic = {}}, {}, options));
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ TEST(BoundedRun, ATightLimitCostsLittleQuality) {
   const double free = run_within(std::numeric_limits<double>::infinity());
   const QualityReport best = measure_quality(mesh);
   EXPECT_LE(run_within(0.7 * free), 0.7 * free);
+  // In which of several minima such a run ends is chance, and the worst triangle with it.
   EXPECT_GT(measure_quality(mesh).min_angle_deg, best.min_angle_deg - 20);
   EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, best.mean_min_angle_deg - 0.5);
 }
