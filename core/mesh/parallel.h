@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
 
 namespace isorelax {
 
@@ -18,5 +21,33 @@ void parallel_for_blocks(std::size_t count, unsigned threads,
 constexpr std::size_t block_count(std::size_t count) {
   return (count + kBlockSize - 1) / kBlockSize;
 }
+
+/// Memory that is costly to make, for blocks that run at the same time: each block borrows a piece and gives
+/// it back, so that there are as many pieces as threads. What a piece held before must make no difference.
+template <typename T>
+class Scratch {
+ public:
+  explicit Scratch(std::function<std::unique_ptr<T>()> make) : make_(std::move(make)) {}
+
+  void with_one(const std::function<void(T&)>& work) {
+    std::unique_ptr<T> piece = borrow();
+    work(piece ? *piece : *(piece = make_()));
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(piece));
+  }
+
+ private:
+  std::unique_ptr<T> borrow() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return nullptr;
+    std::unique_ptr<T> piece = std::move(idle_.back());
+    idle_.pop_back();
+    return piece;
+  }
+
+  std::function<std::unique_ptr<T>()> make_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<T>> idle_;
+};
 
 }  // namespace isorelax

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "surface/height_fit.h"
@@ -8,26 +7,41 @@
 
 namespace isorelax {
 
+/// The sectors at the other ends of a sector's edges, each once.
+class SectorNeighbours {
+ public:
+  explicit SectorNeighbours(const Sectors& sectors);
+
+  [[nodiscard]] std::span<const Index> of(Index sector) const {
+    return {neighbours_.data() + offsets_[sector], offsets_[sector + 1] - offsets_[sector]};
+  }
+
+ private:
+  std::vector<std::uint32_t> offsets_;
+  std::vector<Index> neighbours_;
+};
+
 /// Collects what a fit of one sector is made from, ring by ring, without crossing a wall. Keeps its memory
 /// between calls: one for each thread.
 class FitSampler {
  public:
-  FitSampler(std::span<const Vec3> positions, const Sectors& sectors, std::span<const Vec3> sector_normals)
-      : x_(positions), sectors_(sectors), normals_(sector_normals) {}
+  /// One sample for each sector.
+  FitSampler(const SectorNeighbours& neighbours, std::span<const FitSample> samples)
+      : neighbours_(neighbours), all_(samples), round_of_(samples.size(), 0) {}
 
   /// Vertices of at least two rings, and of whole rings more until there are `wanted` or none are left; at
   /// most HeightFit::kMaxSamples. Valid until the next call.
   std::span<const FitSample> collect(Index sector, std::size_t wanted);
 
  private:
-  bool insert(Index sector);
+  void add_neighbours(Index sector);
 
-  std::span<const Vec3> x_;
-  const Sectors& sectors_;
-  std::span<const Vec3> normals_;
+  const SectorNeighbours& neighbours_;
+  std::span<const FitSample> all_;
+  std::vector<std::uint32_t> round_of_;  // the last call that found this sector
+  std::uint32_t round_ = 0;
   std::vector<Index> found_;
   std::vector<FitSample> samples_;
-  std::array<Index, 256> table_{};
 };
 
 }  // namespace isorelax

@@ -119,14 +119,19 @@ void FrozenSurface::fit_sectors(unsigned threads) {
       normals_[s] = unit(sum);
     }
   });
+  std::vector<FitSample> samples(count);
+  for (Index s = 0; s < count; ++s) samples[s] = {x_[patches_.vertex(s)], normals_[s]};
+  const SectorNeighbours neighbours(patches_);
   const HeightFitOptions options;
   const std::size_t wanted = HeightFit::samples_for(options);
+  Scratch<FitSampler> samplers([&] { return std::make_unique<FitSampler>(neighbours, samples); });
   parallel_for_blocks(count, threads, [&](std::size_t begin, std::size_t end) {
-    FitSampler sampler(x_, patches_, normals_);
-    for (Index s = static_cast<Index>(begin); s < end; ++s) {
-      if (planar_[patches_.corners(s)[0] / 3] != 0) continue;
-      fits_[s] = HeightFit(x_[patches_.vertex(s)], normals_[s], sampler.collect(s, wanted), options);
-    }
+    samplers.with_one([&](FitSampler& sampler) {
+      for (Index s = static_cast<Index>(begin); s < end; ++s) {
+        if (planar_[patches_.corners(s)[0] / 3] != 0) continue;
+        fits_[s] = HeightFit(samples[s].point, samples[s].normal, sampler.collect(s, wanted), options);
+      }
+    });
   });
 }
 

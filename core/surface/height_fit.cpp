@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "mesh/lanes.h"
@@ -20,39 +21,71 @@ constexpr int kWidth = kMaxTerms + 2;
 constexpr int kHeight = kWidth - 1;
 using Row = std::array<double, kWidth>;
 
-/// u, v, u^2, u v, v^2, u^3, ...: a lower degree is a leading part.
-void fill_terms(double u, double v, int degree, Row& row) {
-  row[0] = u;
-  row[1] = v;
-  int from = 0;
-  for (int d = 2, to = 2; d <= degree; ++d) {
-    for (int i = 0; i < d; ++i) row[to + i] = row[from + i] * u;
-    row[to + d] = row[from + d - 1] * v;
-    from = to;
-    to += d + 1;
+/// u, v, u^2, u v, v^2, u^3, ...: a lower degree is a leading part. At last the height; all times a weight.
+[[gnu::always_inline]] inline void fill(double u, double v, double height, double weight, Row& row) {
+  const double wu = weight * u, wv = weight * v;
+  const double uu = u * u, uv = u * v, vv = v * v;
+  const double wuu = wu * u, wuv = wu * v, wvv = wv * v;
+  row = {wu,      wv,       wuu,      wuv,      wvv,      wuu * u,  wuu * v, wuv * v,
+         wvv * v, wuu * uu, wuu * uv, wuu * vv, wuv * vv, wvv * vv, 0,       weight * height};
+}
+
+/// Four numbers that the compiler keeps in a register: loops over a row alone it does not vectorise.
+using Four = double __attribute__((vector_size(32)));
+constexpr int kFours = kWidth / 4;
+static_assert(kWidth % 4 == 0);
+
+[[gnu::always_inline]] inline void load(const Row& row, int part, Four& four) {
+  std::memcpy(&four, row.data() + static_cast<std::ptrdiff_t>(4) * part, sizeof four);
+}
+[[gnu::always_inline]] inline void store(const Four& four, int part, Row& row) {
+  std::memcpy(row.data() + static_cast<std::ptrdiff_t>(4) * part, &four, sizeof four);
+}
+
+/// One round of modified Gram-Schmidt, on the columns from 4 kFrom on.
+template <int kFrom>
+[[gnu::always_inline]] inline void take_out(std::span<Row> rows, int k, Row& of_r) {
+  std::array<Four, kFours> along{};
+  for (const Row& row : rows) {
+    for (int part = kFrom; part < kFours; ++part) {
+      Four four;
+      load(row, part, four);
+      along[part] += row[k] * four;
+    }
+  }
+  for (int part = kFrom; part < kFours; ++part) store(along[part], part, of_r);
+  const double norm2 = of_r[k];
+  const double scale = norm2 > 0 ? 1 / std::sqrt(norm2) : 0;
+  for (int part = kFrom; part < kFours; ++part) {
+    along[part] *= scale;
+    store(along[part], part, of_r);
+  }
+  for (Row& row : rows) {
+    const double q = scale * row[k];
+    for (int part = kFrom; part < kFours; ++part) {
+      Four four;
+      load(row, part, four);
+      four -= q * along[part];
+      store(four, part, row);
+    }
   }
 }
 
 /// Modified Gram-Schmidt, which is as sound as Householder's QR where the right-hand side takes part. Leaves
-/// the rows of R with what belongs to them of Q^T b. A column that is zero gets a row of zeros.
+/// the rows of R (from their diagonal on) with what belongs to them of Q^T b. A column that is zero gets a
+/// row of zeros.
 ISORELAX_VECTOR_CLONES
 void orthogonalise(std::span<Row> rows, int terms, std::array<Row, kMaxTerms>& r) {
   for (int k = 0; k < terms; ++k) {
-    double norm2 = 0;
-    for (const Row& row : rows) norm2 += row[k] * row[k];
-    const double norm = std::sqrt(norm2);
-    const double scale = norm > 0 ? 1 / norm : 0;
-    Row along{};
-    for (const Row& row : rows) {
-      const double q = scale * row[k];
-      for (int j = 0; j < kWidth; ++j) along[j] += q * row[j];
+    if (k < 4) {
+      take_out<0>(rows, k, r[k]);
+    } else if (k < 8) {
+      take_out<1>(rows, k, r[k]);
+    } else if (k < 12) {
+      take_out<2>(rows, k, r[k]);
+    } else {
+      take_out<3>(rows, k, r[k]);
     }
-    for (Row& row : rows) {
-      const double q = scale * row[k];
-      for (int j = 0; j < kWidth; ++j) row[j] -= q * along[j];
-    }
-    r[k] = along;
-    r[k][k] = norm;
   }
 }
 
@@ -86,20 +119,19 @@ double quarter_power(double x, int degree) {
   return degree == 2 ? std::sqrt(x) : std::sqrt(x * std::sqrt(x));
 }
 
-/// First tangent of a frame that turns with the samples, so that the fit does not depend on how the surface
-/// lies in space: halfway between where they spread most and least. Of samples near a line u and v are then
-/// almost the same, and what they do not determine shows.
-Vec3 frame_tangent(const Vec3& origin, const Vec3& normal, std::span<const FitSample> samples) {
-  const Vec3 t1 = normal.unitOrthogonal();
-  const Vec3 t2 = normal.cross(t1);
+/// A sample in the frame of a fit, squared distance from its origin last.
+struct LocalSample {
+  double u, v, height, squared;
+};
+
+/// Cosine and sine of the angle by which the frame turns with the samples, so that the fit does not depend on
+/// how the surface lies in space: halfway between where they spread most and least. Of samples near a line u
+/// and v are then almost the same, and what they do not determine shows.
+std::array<double, 2> turn_of_frame(std::span<const LocalSample> samples) {
   double uu = 0, uv = 0, vv = 0;
-  for (const FitSample& s : samples) {
-    const Vec3 d = s.point - origin;
-    const double u = d.dot(t1), v = d.dot(t2);
-    uu += u * u, uv += u * v, vv += v * v;
-  }
+  for (const LocalSample& s : samples) uu += s.u * s.u, uv += s.u * s.v, vv += s.v * s.v;
   const double angle = 0.5 * std::atan2(2 * uv, uu - vv) + 0.25 * std::numbers::pi;
-  return std::cos(angle) * t1 + std::sin(angle) * t2;
+  return {std::cos(angle), std::sin(angle)};
 }
 
 }  // namespace
@@ -113,17 +145,24 @@ HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<cons
                      const HeightFitOptions& options)
     : origin_(origin), normal_(unit_normal) {
   samples = samples.first(std::min<std::size_t>(samples.size(), kMaxSamples));
-  t1_ = frame_tangent(origin_, normal_, samples);
+  t1_ = normal_.unitOrthogonal();
   t2_ = normal_.cross(t1_);
-  double radius2 = 0, mean2 = 0;
-  for (const FitSample& s : samples) {
-    radius2 = std::max(radius2, (s.point - origin).squaredNorm());
-    mean2 += (s.point - origin).squaredNorm() / static_cast<double>(samples.size());
+  std::array<LocalSample, kMaxSamples> memory;
+  const std::span<LocalSample> local = std::span(memory).first(samples.size());
+  double radius2 = 0, sum2 = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3 d = samples[i].point - origin;
+    local[i] = {d.dot(t1_), d.dot(t2_), d.dot(normal_), d.squaredNorm()};
+    radius2 = std::max(radius2, local[i].squared);
+    sum2 += local[i].squared;
   }
   if (!(radius2 > 0)) return;
   const double scale = 1 / std::sqrt(radius2);
-  t1_ *= scale;
-  t2_ *= scale;
+  const auto [cosine, sine] = turn_of_frame(local);
+  const double c = scale * cosine, s = scale * sine;
+  const Vec3 t1 = t1_;
+  t1_ = c * t1 + s * t2_;
+  t2_ = c * t2_ - s * t1;
 
   int degree = std::min(options.degree, kMaxDegree);
   const auto enough = [&](int d) {
@@ -132,14 +171,13 @@ HeightFit::HeightFit(const Vec3& origin, const Vec3& unit_normal, std::span<cons
   while (degree > 1 && !enough(degree)) --degree;
   if (degree < 2) return;
 
-  std::array<Row, kMaxSamples> rows{};
+  std::array<Row, kMaxSamples> rows;
+  const double over_mean2 = static_cast<double>(samples.size()) / sum2;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vec3 d = samples[i].point - origin;
+    const auto& [u, v, height, squared] = local[i];
     const double facing = std::max(0.0, samples[i].normal.dot(normal_));
-    const double weight = facing / quarter_power(d.squaredNorm() / mean2 + 0.01, degree);
-    fill_terms(d.dot(t1_), d.dot(t2_), degree, rows[i]);
-    rows[i][kHeight] = d.dot(normal_);
-    for (double& x : rows[i]) x *= weight;
+    const double weight = facing / quarter_power(squared * over_mean2 + 0.01, degree);
+    fill(c * u + s * v, c * v - s * u, height, weight, rows[i]);
   }
   degree_ = solve(std::span(rows).first(samples.size()), degree, options.independence, coefficients_);
 }
