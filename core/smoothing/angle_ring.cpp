@@ -8,10 +8,6 @@
 namespace isorelax {
 namespace {
 
-/// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
-/// degrees.
-constexpr double kLeastRingCosine = 0.5;
-
 double soft_value_of(std::span<const double> scores, double sharpness) {
   const double least = *std::min_element(scores.begin(), scores.end());
   double sum = 0;
@@ -54,6 +50,28 @@ void AngleRing::look_at(std::span<const Vec3> positions, Index vertex) {
     triangles_.push_back(c / 3);
     sides_.push_back({a, b, area_vector(positions[vertex], a, b)});
   }
+  if (turns_.applies()) find_neighbours(positions, vertex);
+}
+
+/// Of the edges at the vertex one for each triangle: the other one belongs to its neighbour as well.
+void AngleRing::find_neighbours(std::span<const Vec3> positions, Index vertex) {
+  neighbours_.clear();
+  std::size_t side = 0;
+  for (const Corner c : problem_.topology.corners_of(vertex)) {
+    if (problem_.treated[c / 3] == 0) continue;
+    const Corner beyond = problem_.topology.opposite(c);
+    if (beyond != kNone) {
+      const Triangle& t = problem_.triangles[beyond / 3];
+      neighbours_.push_back(
+          {side, kOutside, beyond / 3, area_vector(positions[t[0]], positions[t[1]], positions[t[2]])});
+    }
+    const Corner beside = problem_.topology.opposite(c - c % 3 + next(c % 3));
+    const auto other = std::ranges::find(triangles_, beside / 3);
+    if (beside != kNone && other != triangles_.end())
+      neighbours_.push_back(
+          {side, static_cast<std::size_t>(other - triangles_.begin()), *other, Vec3::Zero()});
+    ++side;
+  }
 }
 
 std::span<const AngleRange> AngleRing::ranges(const Vec3& at) {
@@ -65,16 +83,22 @@ std::span<const AngleRange> AngleRing::ranges(const Vec3& at) {
   return ranges_;
 }
 
-bool AngleRing::is_upright(const Vec3& at) const {
+bool AngleRing::is_upright(const Vec3& at) {
+  areas_.clear();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const Vec3 area = area_vector(at, sides_[i].a, sides_[i].b);
     if (!(area.dot(sides_[i].normal) > 0)) return false;
-    if (problem_.initial_normals.empty()) continue;
+    areas_.push_back(area);
+    if (!turns_.applies()) continue;
     const double along = area.dot(problem_.initial_normals[triangles_[i]]);
-    if (!(along > 0 && along * along > kLeastRingCosine * kLeastRingCosine * area.squaredNorm()))
-      return false;
+    constexpr double kLeast = TurnLimit::kLeastCosine * TurnLimit::kLeastCosine;
+    if (!(along > 0 && along * along > kLeast * area.squaredNorm())) return false;
   }
-  return true;
+  if (!turns_.applies()) return true;
+  return std::ranges::none_of(neighbours_, [&](const Neighbour& n) {
+    return turns_.is_fold(triangles_[n.side], areas_[n.side], n.triangle,
+                          n.other == kOutside ? n.area : areas_[n.other]);
+  });
 }
 
 std::array<double, 3> AngleRing::angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients) {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "smoothing/problem.h"
+#include "smoothing/turn_limit.h"
 
 namespace isorelax {
 
@@ -34,7 +35,7 @@ class AngleRing {
         spread;  ///< b times the covariance of the scores' gradients: minus the second derivative's main part
   };
 
-  explicit AngleRing(const SmoothingProblem& problem) : problem_(problem) {}
+  explicit AngleRing(const SmoothingProblem& problem) : problem_(problem), turns_(problem) {}
 
   /// Scores are those of this goal from now on.
   void aim_at(const AngleGoal& goal) { goal_ = goal; }
@@ -45,8 +46,8 @@ class AngleRing {
   [[nodiscard]] std::span<const Index> triangles() const { return triangles_; }
   [[nodiscard]] std::span<const AngleRange> ranges(const Vec3& at);
 
-  /// Whether no triangle turns over when the vertex goes to `at`.
-  [[nodiscard]] bool is_upright(const Vec3& at) const;
+  /// Whether no triangle turns over or too far when the vertex goes to `at`.
+  [[nodiscard]] bool is_upright(const Vec3& at);
   /// The soft minimum of all scores of the ring.
   [[nodiscard]] double soft_minimum_value(const Vec3& at, double sharpness);
   [[nodiscard]] Soft soft_minimum(const Vec3& at, double sharpness);
@@ -61,14 +62,27 @@ class AngleRing {
     Vec3 a, b;    // the next and the previous vertex
     Vec3 normal;  // area vector where the vertex was
   };
+  /// A triangle over an edge of one of the ring's: outside, or another one of the ring.
+  struct Neighbour {
+    std::size_t side;
+    std::size_t other;  // side; kOutside
+    Index triangle;
+    Vec3 area;  // of one outside
+  };
+  static constexpr std::size_t kOutside = SIZE_MAX;
+
+  void find_neighbours(std::span<const Vec3> positions, Index vertex);
   /// Angles in degrees at the vertex, at a and at b, and optionally their gradients.
   static std::array<double, 3> angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients);
   void collect(const Vec3& at, std::vector<Vec3>* gradients);
 
   const SmoothingProblem& problem_;
+  TurnLimit turns_;
   AngleGoal goal_{};
   std::vector<Index> triangles_;
   std::vector<Side> sides_;
+  std::vector<Neighbour> neighbours_;
+  std::vector<Vec3> areas_;
   std::vector<double> scores_;
   std::vector<Vec3> gradients_;
   std::vector<AngleRange> ranges_;

@@ -18,9 +18,6 @@ constexpr unsigned kMaxRounds = 12;
 /// it, and rounds after which it loses all.
 constexpr unsigned kSlidingRounds = 2;
 constexpr unsigned kNearRounds = 6;
-/// On a curved surface no triangle turns farther than this from its normal at the start: cosine of 60
-/// degrees.
-constexpr double kLeastCosine = 0.5;
 
 /// c + b a + q a^2: signed area along the move, over the old normal.
 struct AreaAlongMove {
@@ -105,9 +102,14 @@ double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& 
 }
 
 FoldControl::FoldControl(const SmoothingProblem& problem)
-    : problem_(problem), surface_(problem), block_cuts_(block_count(problem.triangle_count())) {}
+    : problem_(problem),
+      turns_(problem),
+      surface_(problem),
+      block_cuts_(block_count(problem.triangle_count())) {}
 
-void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const {
+/// Where all triangles are checked, one that folds onto its neighbour is found from either of them.
+void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_checked,
+                        std::vector<Cut>& cuts) const {
   EdgeBatch x;
   EdgeBatch y;
   AreaBatch areas;
@@ -117,7 +119,7 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
   area_along_move(x, y, areas);
   measure_angles(y, angles);
   Lanes cosines;
-  const bool may_turn = !problem_.initial_normals.empty();
+  const bool may_turn = turns_.applies();
   if (may_turn) {
     NormalBatch normals;
     normals.load(problem_.initial_normals, ids);
@@ -129,17 +131,28 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, std::vector<Cut
     double limit = share(p);
     const bool too_sharp = !(angles.smallest_cot.at[i] <= problem_.worst_angles.smallest_cot) ||
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
-    const bool turned = may_turn && !(cosines.at[i] > kLeastCosine * kLeastCosine);
+    const bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
+    const bool may_fold_onto = may_turn && !(all_are_checked && cosines.at[i] > turns_.folding_cosine(t));
+    if (problem_.treated[t] == 0) continue;
+    const auto cut = [&](Index triangle) {
+      for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, limit});
+    };
     if (too_sharp || turned) limit = std::min(limit, 0.5);
-    if (!(limit < 1) || problem_.treated[t] == 0) continue;
-    for (const Index v : problem_.triangles[t]) cuts.push_back({v, t, limit});
+    if (may_fold_onto) {
+      for (const Index other : turns_.folds_onto(trial.to(), t)) {
+        if (other == kNone) continue;
+        limit = std::min(limit, 0.5);
+        cut(other);
+      }
+    }
+    if (limit < 1) cut(t);
   }
 }
 
 std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {
   std::vector<Cut> cuts;
   for (std::size_t first = 0; first < triangles.size(); first += kLanes) {
-    check(trial, BatchIds::of_list(triangles, first), cuts);
+    check(trial, BatchIds::of_list(triangles, first), false, cuts);
   }
   return cuts;
 }
@@ -149,7 +162,7 @@ void FoldControl::limit(Trial& trial, StepRecord& record) {
     std::vector<Cut>& cuts = block_cuts_[begin / kBlockSize];
     cuts.clear();
     for (std::size_t first = begin; first < end; first += kLanes) {
-      check(trial, BatchIds::of_range(first, end), cuts);
+      check(trial, BatchIds::of_range(first, end), true, cuts);
     }
   });
   std::vector<Cut> all;

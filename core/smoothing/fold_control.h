@@ -7,6 +7,7 @@
 #include "smoothing/surface_limit.h"
 #include "smoothing/trial.h"
 #include "smoothing/triangle_batch.h"
+#include "smoothing/turn_limit.h"
 
 namespace isorelax {
 
@@ -16,12 +17,12 @@ namespace isorelax {
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
 /// The paper's asynchronous step-size control, which also makes no triangle worse than the problem's worst
-/// angles and on curved surfaces keeps every triangle within 60 degrees of its normal at the start of the
-/// run: scales each vertex' move by the smallest share of its triangles and repeats with the scaled moves
-/// until no triangle limits. After a bounded number of rounds what still folds is stopped (its vertices do
-/// not move), which always ends. Rounds after the first look only at triangles whose vertices were scaled.
-/// Likewise what would be farther from the surface as it was than the problem allows (SurfaceLimit): vertices
-/// there slide along the limit first, then are cut back.
+/// angles and on curved surfaces lets none turn too far from its normal at the start of the run or over onto
+/// its neighbour (TurnLimit): scales each vertex' move by the smallest share of its triangles and repeats
+/// with the scaled moves until no triangle limits. After a bounded number of rounds what still folds is
+/// stopped (its vertices do not move), which always ends. Rounds after the first look only at triangles whose
+/// vertices were scaled. Likewise what would be farther from the surface as it was than the problem allows
+/// (SurfaceLimit): vertices there slide along the limit first, then are cut back.
 class FoldControl {
  public:
   /// Keeps a reference to the problem.
@@ -39,12 +40,13 @@ class FoldControl {
     Index triangle;
     double share;
   };
-  void check(const Trial& trial, const BatchIds& ids, std::vector<Cut>& cuts) const;
+  void check(const Trial& trial, const BatchIds& ids, bool all_are_checked, std::vector<Cut>& cuts) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
   std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);
 
   const SmoothingProblem& problem_;
+  TurnLimit turns_;
   SurfaceLimit surface_;
   std::vector<std::vector<Cut>> block_cuts_;
 };

@@ -13,11 +13,10 @@ namespace {
 /// Share of the largest distance that may be seen: what is between that and the bound decides how often edges
 /// have to be divided.
 constexpr double kSeen = 0.98;
-/// Share that may be proven: the rest is for rounding.
-constexpr double kProven = 1 - 1e-9;
 /// Where edges cross, the distances one way and the other differ by the cosine of half the turn of one edge:
-/// up to this turn, by less than what is left between seen and proven.
+/// up to this turn, by no more than what is left above the share that may be proven, with some for rounding.
 constexpr double kSharpTurnDeg = 10;
+constexpr double kProven = 0.99619469809174555 - 1e-9;
 /// An edge is divided that often at most, and not too near to an end.
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
