@@ -62,14 +62,15 @@ void AngleRing::find_neighbours(std::span<const Vec3> positions, Index vertex) {
     const Corner beyond = problem_.topology.opposite(c);
     if (beyond != kNone) {
       const Triangle& t = problem_.triangles[beyond / 3];
-      neighbours_.push_back(
-          {side, kOutside, beyond / 3, area_vector(positions[t[0]], positions[t[1]], positions[t[2]])});
+      neighbours_.push_back({side, kOutside, beyond / 3,
+                             area_vector(positions[t[0]], positions[t[1]], positions[t[2]]),
+                             turns_.folds_of(positions, beyond / 3, c / 3)});
     }
     const Corner beside = problem_.topology.opposite(c - c % 3 + next(c % 3));
     const auto other = std::ranges::find(triangles_, beside / 3);
     if (beside != kNone && other != triangles_.end())
       neighbours_.push_back(
-          {side, static_cast<std::size_t>(other - triangles_.begin()), *other, Vec3::Zero()});
+          {side, static_cast<std::size_t>(other - triangles_.begin()), *other, Vec3::Zero(), {}});
     ++side;
   }
 }
@@ -83,6 +84,21 @@ std::span<const AngleRange> AngleRing::ranges(const Vec3& at) {
   return ranges_;
 }
 
+std::vector<MoveBound> AngleRing::move_bounds(const Vec3& at, std::span<const AngleRange> bounds) const {
+  std::vector<MoveBound> found;
+  found.reserve(6 * sides_.size());
+  std::array<Vec3, 3> gradients;
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const auto a = angles(sides_[i], at, &gradients);
+    const AngleRange& bound = bounds[triangles_[i]];
+    for (unsigned k = 0; k < 3; ++k) {
+      found.push_back({gradients[k], a[k] - bound.min});
+      found.push_back({-gradients[k], bound.max - a[k]});
+    }
+  }
+  return found;
+}
+
 bool AngleRing::is_upright(const Vec3& at) {
   areas_.clear();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
@@ -94,11 +110,28 @@ bool AngleRing::is_upright(const Vec3& at) {
     constexpr double kLeast = TurnLimit::kLeastCosine * TurnLimit::kLeastCosine;
     if (!(along > 0 && along * along > kLeast * area.squaredNorm())) return false;
   }
-  if (!turns_.applies()) return true;
-  return std::ranges::none_of(neighbours_, [&](const Neighbour& n) {
-    return turns_.is_fold(triangles_[n.side], areas_[n.side], n.triangle,
-                          n.other == kOutside ? n.area : areas_[n.other]);
-  });
+  return !turns_.applies() || !turns_back();
+}
+
+/// Whether a triangle of the ring or next to it turns back from its neighbours with the areas as they are.
+bool AngleRing::turns_back() {
+  folds_.assign(sides_.size(), {});
+  for (const Neighbour& n : neighbours_) {
+    const Folds fold = turns_.fold_between(triangles_[n.side], areas_[n.side], n.triangle,
+                                           n.other == kOutside ? n.area : areas_[n.other]);
+    if (!fold.any()) continue;
+    folds_[n.side] += fold;
+    if (n.other != kOutside) {
+      folds_[n.other] += fold;
+      continue;
+    }
+    Folds outside = n.folds;
+    outside += fold;
+    if (turns_.turns_back(n.triangle, outside)) return true;
+  }
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    if (folds_[i].any() && turns_.turns_back(triangles_[i], folds_[i])) return true;
+  return false;
 }
 
 std::array<double, 3> AngleRing::angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients) {

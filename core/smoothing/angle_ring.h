@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "smoothing/bounded_move.h"
 #include "smoothing/turn_limit.h"
 
 namespace isorelax {
@@ -45,6 +46,8 @@ class AngleRing {
   /// The triangles' numbers, and as many AngleRanges with the vertex at `at`.
   [[nodiscard]] std::span<const Index> triangles() const { return triangles_; }
   [[nodiscard]] std::span<const AngleRange> ranges(const Vec3& at);
+  /// What keeps all angles within their triangles' bounds (by number) for moves from `at`, in degrees.
+  [[nodiscard]] std::vector<MoveBound> move_bounds(const Vec3& at, std::span<const AngleRange> bounds) const;
 
   /// Whether no triangle turns over or too far when the vertex goes to `at`.
   [[nodiscard]] bool is_upright(const Vec3& at);
@@ -67,11 +70,13 @@ class AngleRing {
     std::size_t side;
     std::size_t other;  // side; kOutside
     Index triangle;
-    Vec3 area;  // of one outside
+    Vec3 area;    // of one outside
+    Folds folds;  // its others, of one outside
   };
   static constexpr std::size_t kOutside = SIZE_MAX;
 
   void find_neighbours(std::span<const Vec3> positions, Index vertex);
+  [[nodiscard]] bool turns_back();
   /// Angles in degrees at the vertex, at a and at b, and optionally their gradients.
   static std::array<double, 3> angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients);
   void collect(const Vec3& at, std::vector<Vec3>* gradients);
@@ -83,6 +88,7 @@ class AngleRing {
   std::vector<Side> sides_;
   std::vector<Neighbour> neighbours_;
   std::vector<Vec3> areas_;
+  std::vector<Folds> folds_;
   std::vector<double> scores_;
   std::vector<Vec3> gradients_;
   std::vector<AngleRange> ranges_;

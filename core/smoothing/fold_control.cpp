@@ -107,7 +107,7 @@ FoldControl::FoldControl(const SmoothingProblem& problem)
       surface_(problem),
       block_cuts_(block_count(problem.triangle_count())) {}
 
-/// Where all triangles are checked, one that folds onto its neighbour is found from either of them.
+/// Where all triangles are checked, a fresh fold is found from one of the two at it.
 void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_checked,
                         std::vector<Cut>& cuts) const {
   EdgeBatch x;
@@ -132,20 +132,14 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
     const bool too_sharp = !(angles.smallest_cot.at[i] <= problem_.worst_angles.smallest_cot) ||
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
     const bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
-    const bool may_fold_onto = may_turn && !(all_are_checked && cosines.at[i] > turns_.folding_cosine(t));
     if (problem_.treated[t] == 0) continue;
-    const auto cut = [&](Index triangle) {
-      for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, limit});
+    const auto cut = [&](Index triangle, double share) {
+      for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, share});
     };
     if (too_sharp || turned) limit = std::min(limit, 0.5);
-    if (may_fold_onto) {
-      for (const Index other : turns_.folds_onto(trial.to(), t)) {
-        if (other == kNone) continue;
-        limit = std::min(limit, 0.5);
-        cut(other);
-      }
-    }
-    if (limit < 1) cut(t);
+    if (limit < 1) cut(t, limit);
+    if (may_turn && !(all_are_checked && cosines.at[i] > turns_.folding_cosine(t)))
+      turns_.for_turned_back(trial.to(), t, [&](Index triangle) { cut(triangle, 0.5); });
   }
 }
 

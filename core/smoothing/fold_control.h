@@ -17,8 +17,8 @@ namespace isorelax {
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
 /// The paper's asynchronous step-size control, which also makes no triangle worse than the problem's worst
-/// angles and on curved surfaces lets none turn too far from its normal at the start of the run or over onto
-/// its neighbour (TurnLimit): scales each vertex' move by the smallest share of its triangles and repeats
+/// angles and on curved surfaces lets none turn too far from its normal at the start of the run or back from
+/// its neighbours (TurnLimit): scales each vertex' move by the smallest share of its triangles and repeats
 /// with the scaled moves until no triangle limits. After a bounded number of rounds what still folds is
 /// stopped (its vertices do not move), which always ends. Rounds after the first look only at triangles whose
 /// vertices were scaled. Likewise what would be farther from the surface as it was than the problem allows

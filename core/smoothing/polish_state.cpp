@@ -18,6 +18,11 @@ constexpr double kPolishReach = 0.2;
 constexpr unsigned kPolishHalvings = 5;
 constexpr unsigned kTurnedHalvings = 2;
 /// Turns of a move that is held back, in the order in which they are tried; radians.
+/// A vertex at bounds that could gain less than this, in degrees, stays; one that could gain more has so many
+/// tries, each with what was missing times the factor.
+constexpr double kLeastClimb = 1e-5;
+constexpr unsigned kBoundRounds = 4;
+constexpr double kCorrection = 1.5;
 constexpr std::array kTurns = {0.7, -0.7, 1.3, -1.3};
 
 std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
@@ -90,60 +95,88 @@ AngleRing& PolishState::look_at(Index vertex) {
 std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const AngleRing::Soft& soft,
                                        const std::function<double(const Vec3&)>& value,
                                        std::span<const AngleRange> bounds) {
-  const Vec3 d = uphill(vertex, at, soft);
+  const Climb climb{vertex, at, soft, value, bounds};
   held_back_ = 0;
+  hold_ = Hold::none;
+  const NewtonBlock model = model_of(climb);
+  const Vec3 d = model.solve(soft.gradient);
   if (d.isZero(0)) return std::nullopt;
-  const auto along = [&](const Vec3& direction, unsigned halvings) -> std::optional<Vec3> {
-    Vec3 move = direction;
-    for (unsigned k = 0; k <= halvings; ++k, move *= 0.5) {
-      const Vec3 there = bring_back(problem_, vertex, at + move);
-      if (!(value(there) > soft.value)) continue;
-      if (may_go(vertex, there, bounds)) return there;
-    }
-    return std::nullopt;
-  };
-  if (auto there = along(d, kPolishHalvings)) return there;
-  // What holds a vertex back leads along itself.
+  if (auto there = along(climb, d, kPolishHalvings)) return there;
   if (held_back_ == 0 || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
-  const Vec3 side = tangent_axis(problem_, x_, vertex).cross(d);
+  if (hold_ == Hold::angles) return along_bounds(climb, model);
+  // What holds a vertex back leads along itself.
+  const Vec3 side = model.t2 * model.t1.dot(d) - model.t1 * model.t2.dot(d);
   for (const double turn : kTurns) {
-    if (auto there = along(std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
+    if (auto there = along(climb, std::cos(turn) * d + std::sin(turn) * side, kTurnedHalvings)) return there;
   }
   return std::nullopt;
 }
 
-/// (curvature + |g| / r)^-1 g in the vertex's tangent space, no longer than r, a share of its shortest edge.
-Vec3 PolishState::uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const {
-  const Vec3 axis = tangent_axis(problem_, x_, vertex);
-  const Vec3 g = tangent_part(problem_.mobility[vertex], axis, soft.gradient);
-  const double slope = g.norm();
-  if (!(slope > 0)) return Vec3::Zero();
-  NewtonBlock block(problem_.mobility[vertex], axis);
-  const double damping = slope / (kPolishReach * ring_.shortest_edge(at));
-  block.add(soft.spread);
-  block.h11 += damping;
-  block.h22 += damping;
-  return block.solve(g);
+/// Ends at once where bounds on angles hold the vertex back in a plane: halves lead there more slowly than a
+/// move along them.
+std::optional<Vec3> PolishState::along(const Climb& climb, const Vec3& direction, unsigned halvings) {
+  Vec3 move = direction;
+  for (unsigned k = 0; k <= halvings; ++k, move *= 0.5) {
+    const Vec3 there = bring_back(problem_, climb.vertex, climb.at + move);
+    if (!(climb.value(there) > climb.soft.value)) continue;
+    hold_ = hold_at(climb.vertex, there, climb.bounds);
+    if (hold_ == Hold::none) return there;
+    if (hold_ == Hold::angles && problem_.mobility[climb.vertex] == Mobility::plane) break;
+  }
+  return std::nullopt;
 }
 
-bool PolishState::may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
+/// The best move of the model that keeps all angles within their bounds, which are straight lines at first;
+/// where that leads over one, the line is moved by as much and more.
+std::optional<Vec3> PolishState::along_bounds(const Climb& climb, const NewtonBlock& model) {
+  std::vector<MoveBound> limits = ring_.move_bounds(climb.at, climb.bounds);
+  for (unsigned round = 0; round < kBoundRounds; ++round) {
+    const Vec3 move = best_move(model, climb.soft.gradient, limits);
+    if (!(move.dot(climb.soft.gradient) > kLeastClimb)) return std::nullopt;
+    const Vec3 there = bring_back(problem_, climb.vertex, climb.at + move);
+    const Hold hold = hold_at(climb.vertex, there, climb.bounds);
+    if (hold == Hold::none && climb.value(there) > climb.soft.value) return there;
+    if (hold != Hold::angles) return along(climb, 0.5 * move, kTurnedHalvings);
+    const std::vector<MoveBound> beyond = ring_.move_bounds(there, climb.bounds);
+    for (std::size_t i = 0; i < limits.size(); ++i)
+      limits[i].slack += kCorrection * std::min(0.0, beyond[i].slack);
+  }
+  return std::nullopt;
+}
+
+/// Curvature + |g| / r, by which a step in the vertex' tangent space is no longer than r, a share of its
+/// shortest edge.
+NewtonBlock PolishState::model_of(const Climb& climb) const {
+  const Mobility mobility = problem_.mobility[climb.vertex];
+  const Vec3 axis = tangent_axis(problem_, x_, climb.vertex);
+  const double slope = tangent_part(mobility, axis, climb.soft.gradient).norm();
+  NewtonBlock block(mobility, axis);
+  const double damping = slope / (kPolishReach * ring_.shortest_edge(climb.at));
+  block.add(climb.soft.spread);
+  block.h11 += damping;
+  block.h22 += damping;
+  return block;
+}
+
+PolishState::Hold PolishState::hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
   if (!ring_.is_upright(there)) {
     held_back_ |= kLimitFold;
-    return false;
+    return Hold::fold;
   }
   const auto ranges = ring_.ranges(there);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const AngleRange& bound = bounds[ring_.triangles()[i]];
     if (ranges[i].min >= bound.min && ranges[i].max <= bound.max) continue;
     held_back_ |= kLimitFold;
-    return false;
+    return Hold::angles;
   }
   const Vec3 here = x_[vertex];
   x_[vertex] = there;
   const bool near = surface_.keeps(x_, vertex);
   x_[vertex] = here;
-  if (!near) held_back_ |= kLimitSurface;
-  return near;
+  if (near) return Hold::none;
+  held_back_ |= kLimitSurface;
+  return Hold::distance;
 }
 
 double PolishState::move(Index vertex, const Vec3& there) {

@@ -56,9 +56,21 @@ class PolishState {
  private:
   void measure(Index triangle);
   void note_change(Index vertex);
-  [[nodiscard]] Vec3 uphill(Index vertex, const Vec3& at, const AngleRing::Soft& soft) const;
-  /// Without turning a triangle over, and within all bounds.
-  [[nodiscard]] bool may_go(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
+  /// What holds a vertex back from going there; none where it may.
+  enum class Hold : std::uint8_t { none, fold, angles, distance };
+  /// What a climb starts from.
+  struct Climb {
+    Index vertex;
+    const Vec3& at;
+    const AngleRing::Soft& soft;
+    const std::function<double(const Vec3&)>& value;
+    std::span<const AngleRange> bounds;
+  };
+  [[nodiscard]] NewtonBlock model_of(const Climb& climb) const;
+  /// Where a move and its halves lead, if one of them may be made.
+  [[nodiscard]] std::optional<Vec3> along(const Climb& climb, const Vec3& move, unsigned halvings);
+  [[nodiscard]] std::optional<Vec3> along_bounds(const Climb& climb, const NewtonBlock& model);
+  [[nodiscard]] Hold hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
 
   const SmoothingProblem& problem_;
   AngleRing ring_;
@@ -67,6 +79,7 @@ class PolishState {
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
   std::uint16_t held_back_ = 0;
+  Hold hold_ = Hold::none;   // of the last climb's last try that would have been higher
   std::uint64_t clock_ = 0;  // changes so far
   std::vector<std::uint64_t> changed_at_, stuck_at_;
 };

@@ -1,7 +1,6 @@
 #include "smoothing/turn_limit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,92 +9,109 @@
 namespace isorelax {
 namespace {
 
-/// Cosines of the turns over an edge that make folds, 120 and 150 degrees, and of a degree less, up to which
-/// other edges may turn.
-struct Fold {
+/// Cosines of the turns from which on edges count as folds of either kind, 120 and 150 degrees, and of a
+/// degree less, which they may not come to.
+struct Kind {
   double cosine, allowed;
 };
-constexpr std::array<Fold, 2> kFolds = {
+constexpr std::array<Kind, 2> kKinds = {
     {{-0.5, -0.48480962024633706}, {-0.86602540378443865, -0.85716730070211233}}};
 constexpr double kRounding = 1e-9;
-
-/// Cosine of the largest turn of an edge whose turn had this cosine at the start.
-double least_cosine(double at_start) {
-  for (const Fold& fold : kFolds)
-    if (at_start > fold.cosine) return std::min(fold.allowed, at_start) - kRounding;
-  return -INFINITY;
-}
+constexpr std::uint8_t kNever = 255;
 
 }  // namespace
 
 TurnLimit::TurnLimit(const SmoothingProblem& problem) : problem_(problem) {
   if (!applies()) return;
-  turned_back_.resize(problem.triangle_count());
+  needed_.resize(problem.triangle_count());
   folding_cosines_.resize(problem.triangle_count());
-  const auto for_triangles = [&](const auto& body) {
-    parallel_for_blocks(problem.triangle_count(), problem.threads, [&](std::size_t begin, std::size_t end) {
-      for (Index t = static_cast<Index>(begin); t < end; ++t) body(t);
-    });
-  };
-  for_triangles([&](Index t) { turned_back_[t] = turns_back(t) ? 1 : 0; });
-  for_triangles([&](Index t) {
-    const double cosine = std::cos(0.5 * room_of(t));
-    folding_cosines_[t] = cosine * cosine;
+  parallel_for_blocks(problem.triangle_count(), problem.threads, [&](std::size_t begin, std::size_t end) {
+    for (Index t = static_cast<Index>(begin); t < end; ++t) {
+      needed_[t] = folds_to_turn_back(t);
+      const double cosine = std::cos(0.5 * room_of(t));
+      folding_cosines_[t] = cosine * cosine;
+    }
   });
-}
-
-/// Whether triangle t turned back from its neighbours at the start.
-bool TurnLimit::turns_back(Index t) const {
-  unsigned neighbours = 0, folds = 0;
-  for (unsigned k = 0; k < 3; ++k) {
-    const Corner across = problem_.topology.opposite(3 * t + k);
-    if (across == kNone) continue;
-    ++neighbours;
-    if (cosine_at_start(t, across / 3) < kFolds[1].cosine) ++folds;
-  }
-  return folds > 0 && folds >= std::min(2U, neighbours);
-}
-
-/// By how much, in radians, an edge of triangle t may turn more than at the start: where it turned by f and
-/// comes to turn by g, its triangles have turned by g - f together.
-double TurnLimit::room_of(Index t) const {
-  double room = std::numbers::pi;
-  for (unsigned k = 0; k < 3; ++k) {
-    const Corner across = problem_.topology.opposite(3 * t + k);
-    if (across == kNone || is_free(t, across / 3)) continue;
-    const double at_start = cosine_at_start(t, across / 3);
-    room = std::min(room, std::acos(least_cosine(at_start)) - std::acos(at_start));
-  }
-  return room;
 }
 
 double TurnLimit::cosine_at_start(Index t, Index u) const {
   return std::clamp(problem_.initial_normals[t].dot(problem_.initial_normals[u]), -1.0, 1.0);
 }
 
-bool TurnLimit::is_free(Index t, Index u) const {
-  return turned_back_[t] != 0 || turned_back_[u] != 0 || least_cosine(cosine_at_start(t, u)) < -1;
+/// One that had turned back at the start may do what it likes.
+std::uint8_t TurnLimit::folds_to_turn_back(Index t) const {
+  std::uint8_t neighbours = 0, folds = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Corner across = problem_.topology.opposite(3 * t + k);
+    if (across == kNone) continue;
+    ++neighbours;
+    if (cosine_at_start(t, across / 3) < kKinds[1].cosine) ++folds;
+  }
+  const std::uint8_t needed = std::min<std::uint8_t>(2, neighbours);
+  return needed == 0 || folds >= needed ? kNever : needed;
 }
 
-bool TurnLimit::is_fold(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const {
+/// By how much, in radians, an edge of triangle t may turn more than at the start before it is a fresh fold:
+/// where it turned by f and comes to turn by g, its triangles have turned by g - f together.
+double TurnLimit::room_of(Index t) const {
+  double room = std::numbers::pi;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Corner across = problem_.topology.opposite(3 * t + k);
+    if (across == kNone) continue;
+    const double at_start = cosine_at_start(t, across / 3);
+    for (const Kind& kind : kKinds) {
+      if (!(at_start > kind.cosine)) continue;
+      room = std::min(room, std::acos(std::min(kind.allowed, at_start)) - std::acos(at_start));
+      break;
+    }
+  }
+  return room;
+}
+
+Folds TurnLimit::fold_between(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const {
+  Folds folds;
   const double along = area_of_t.dot(area_of_u);
+  if (!(along < 0)) return folds;
   const double squares = area_of_t.squaredNorm() * area_of_u.squaredNorm();
-  const auto is_over = [&](double cosine) { return along < 0 && along * along > cosine * cosine * squares; };
-  return is_over(kFolds[0].allowed) && !is_free(t, u) && is_over(least_cosine(cosine_at_start(t, u)));
+  const auto is_over = [&](double cosine) { return along * along > cosine * cosine * squares; };
+  for (unsigned i = 0; i < kKinds.size() && is_over(kKinds[i].allowed); ++i) {
+    folds.all[i] = 1;
+    const double at_start = cosine_at_start(t, u);
+    // Between what is allowed and what counts as a fold it may stay.
+    const bool turned_less =
+        at_start > kKinds[i].cosine && is_over(std::min(kKinds[i].allowed, at_start) - kRounding);
+    folds.fresh[i] = turned_less ? 1 : 0;
+  }
+  return folds;
 }
 
-std::array<Index, 3> TurnLimit::folds_onto(std::span<const Vec3> x, Index triangle) const {
-  const auto area_of = [&](Index t) {
-    const auto& [a, b, c] = problem_.triangles[t];
-    return area_vector(x[a], x[b], x[c]);
-  };
-  const Vec3 area = area_of(triangle);
-  std::array<Index, 3> found = {kNone, kNone, kNone};
+Vec3 TurnLimit::area_at(std::span<const Vec3> x, Index triangle) const {
+  const auto& [a, b, c] = problem_.triangles[triangle];
+  return area_vector(x[a], x[b], x[c]);
+}
+
+Folds TurnLimit::folds_of(std::span<const Vec3> x, Index triangle, Index except) const {
+  Folds folds;
+  const Vec3 area = area_at(x, triangle);
   for (unsigned k = 0; k < 3; ++k) {
     const Corner across = problem_.topology.opposite(3 * triangle + k);
-    if (across != kNone && is_fold(triangle, area, across / 3, area_of(across / 3))) found[k] = across / 3;
+    if (across == kNone || across / 3 == except) continue;
+    folds += fold_between(triangle, area, across / 3, area_at(x, across / 3));
   }
-  return found;
+  return folds;
+}
+
+Index TurnLimit::over_fold(std::span<const Vec3> x, Index triangle, unsigned corner) const {
+  const Corner across = problem_.topology.opposite(3 * triangle + corner);
+  if (across == kNone) return kNone;
+  const Folds fold = fold_between(triangle, area_at(x, triangle), across / 3, area_at(x, across / 3));
+  return fold.any() ? across / 3 : kNone;
+}
+
+bool TurnLimit::turns_back(Index triangle, const Folds& folds) const {
+  for (unsigned kind = 0; kind < 2; ++kind)
+    if (folds.all[kind] >= needed_[triangle] && folds.fresh[kind] > 0) return true;
+  return false;
 }
 
 }  // namespace isorelax

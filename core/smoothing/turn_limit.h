@@ -8,11 +8,25 @@
 
 namespace isorelax {
 
+/// Edges across which the surface turns so far that they count as folds: by more than 119 degrees, and by
+/// more than 149. Fresh are those that turned by less than 120, or 150, at the start.
+struct Folds {
+  std::array<std::uint8_t, 2> all{}, fresh{};
+
+  Folds& operator+=(const Folds& other) {
+    for (unsigned kind = 0; kind < 2; ++kind) {
+      all[kind] += other.all[kind];
+      fresh[kind] += other.fresh[kind];
+    }
+    return *this;
+  }
+  [[nodiscard]] bool any() const { return all[0] > 0; }
+};
+
 /// How far the triangles of a curved surface may turn: none by more than 60 degrees from its normal at the
-/// start, and none over onto its neighbour: an edge across which the surface turned by less than 120 degrees
-/// at the start does not come to turn by more than 119, nor one of less than 150 by more than 149. What turns
-/// by more than 120 or 150 is where triangles count as folded over or upside down (folded_patches.h,
-/// inverted.h). Edges of triangles that turned back from their neighbours already are free.
+/// start, and none back from its neighbours, with folds of one kind at two edges, or at its only one, of
+/// which one is fresh. Triangles that count as upside down have such folds, and so have patches of one or two
+/// that count as folded over (inverted.h, folded_patches.h), whose limits are 120 and 150 degrees.
 class TurnLimit {
  public:
   /// Cosine of the largest turn of a triangle.
@@ -24,26 +38,42 @@ class TurnLimit {
   /// Whether there is such a limit: not in a plane, where signed areas tell all.
   [[nodiscard]] bool applies() const { return !problem_.initial_normals.empty(); }
 
-  /// Of two triangles that share an edge at least one has a cosine to its own initial normal below this where
-  /// one folds onto the other; squared, with its sign.
+  /// Of the two triangles at a fresh fold at least one has a cosine to its own initial normal below this;
+  /// squared, with its sign.
   [[nodiscard]] double folding_cosine(Index triangle) const { return folding_cosines_[triangle]; }
 
-  /// Whether two triangles that share an edge and have these area vectors fold onto each other.
-  [[nodiscard]] bool is_fold(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const;
+  /// The fold between two triangles with these area vectors that share an edge.
+  [[nodiscard]] Folds fold_between(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const;
+  /// All folds at a triangle's edges with all vertices at `x`, except those to one neighbour.
+  [[nodiscard]] Folds folds_of(std::span<const Vec3> x, Index triangle, Index except = kNone) const;
+  /// Whether a triangle with these folds has turned back.
+  [[nodiscard]] bool turns_back(Index triangle, const Folds& folds) const;
 
-  /// The neighbours that this triangle folds onto with all vertices at `x`, by the corner opposite to the
-  /// edge; kNone where it does not.
-  [[nodiscard]] std::array<Index, 3> folds_onto(std::span<const Vec3> x, Index triangle) const;
+  /// Calls act(triangle) for this triangle and its neighbours over folds, where one of them has turned back,
+  /// and for those over the folds of that one.
+  template <typename Act>
+  void for_turned_back(std::span<const Vec3> x, Index triangle, const Act& act) const {
+    const auto around = [&](Index t) {
+      if (!turns_back(t, folds_of(x, t))) return;
+      act(t);
+      for (unsigned k = 0; k < 3; ++k)
+        if (const Index u = over_fold(x, t, k); u != kNone) act(u);
+    };
+    around(triangle);
+    for (unsigned k = 0; k < 3; ++k)
+      if (const Index u = over_fold(x, triangle, k); u != kNone) around(u);
+  }
 
  private:
   [[nodiscard]] double cosine_at_start(Index t, Index u) const;
-  [[nodiscard]] bool turns_back(Index t) const;
+  [[nodiscard]] std::uint8_t folds_to_turn_back(Index t) const;
   [[nodiscard]] double room_of(Index t) const;
-  /// Whether the edge between two triangles may turn as it likes.
-  [[nodiscard]] bool is_free(Index t, Index u) const;
+  /// The neighbour over the edge opposite to a corner if that is a fold, else kNone.
+  [[nodiscard]] Index over_fold(std::span<const Vec3> x, Index triangle, unsigned corner) const;
+  [[nodiscard]] Vec3 area_at(std::span<const Vec3> x, Index triangle) const;
 
   const SmoothingProblem& problem_;
-  std::vector<std::uint8_t> turned_back_;
+  std::vector<std::uint8_t> needed_;  // folds that a triangle has turned back with
   std::vector<double> folding_cosines_;
 };
 

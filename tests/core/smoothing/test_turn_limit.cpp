@@ -17,13 +17,9 @@ std::vector<Vec3> hinge(double turn_deg) {
 }
 const std::vector<Triangle> kHinge = {{0, 1, 2}, {1, 0, 3}};
 
-/// Whether triangle t folds onto the other one.
+/// Whether triangle t turns back from the other one.
 bool folds(const TurnLimit& limit, std::span<const Vec3> positions, Index t) {
-  const std::array<Index, 3> onto = limit.folds_onto(positions, t);
-  EXPECT_EQ(onto[0], kNone);
-  EXPECT_EQ(onto[1], kNone);
-  EXPECT_TRUE(onto[2] == kNone || onto[2] == 1 - t);
-  return onto[2] != kNone;
+  return limit.turns_back(t, limit.folds_of(positions, t));
 }
 
 SmoothingProblem problem_of(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
