@@ -2,35 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesh/angle.h"
+#include "mesh/lane_math.h"
 
 namespace isorelax {
-namespace {
-
-double soft_value_of(std::span<const double> scores, double sharpness) {
-  const double least = *std::min_element(scores.begin(), scores.end());
-  double sum = 0;
-  for (const double s : scores) sum += std::exp(-sharpness * (s - least));
-  return least - std::log(sum) / sharpness;
-}
-
-AngleRing::Soft soft_of(std::span<const double> scores, std::span<const Vec3> gradients, double sharpness) {
-  const double least = *std::min_element(scores.begin(), scores.end());
-  double sum = 0;
-  Vec3 mean = Vec3::Zero();
-  Mat3 squares = Mat3::Zero();
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    const double weight = std::exp(-sharpness * (scores[i] - least));
-    sum += weight;
-    mean += weight * gradients[i];
-    squares += weight * gradients[i] * gradients[i].transpose();
-  }
-  mean /= sum;
-  return {least - std::log(sum) / sharpness, mean, sharpness * (squares / sum - mean * mean.transpose())};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double at_a = angle_between_deg(b - a, c - a);
@@ -40,6 +18,7 @@ AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 void AngleRing::look_at(std::span<const Vec3> positions, Index vertex) {
+  measured_at_.reset();
   triangles_.clear();
   sides_.clear();
   for (const Corner c : problem_.topology.corners_of(vertex)) {
@@ -76,24 +55,25 @@ void AngleRing::find_neighbours(std::span<const Vec3> positions, Index vertex) {
 }
 
 std::span<const AngleRange> AngleRing::ranges(const Vec3& at) {
+  measure(at);
   ranges_.clear();
-  for (const Side& side : sides_) {
-    const auto a = angles(side, at, nullptr);
-    ranges_.push_back({std::min({a[0], a[1], a[2]}), std::max({a[0], a[1], a[2]})});
+  for (std::size_t i = 0; i < angles_.size(); i += 3) {
+    const double a = angles_[i], b = angles_[i + 1], c = angles_[i + 2];
+    ranges_.push_back({std::min({a, b, c}), std::max({a, b, c})});
   }
   return ranges_;
 }
 
-std::vector<MoveBound> AngleRing::move_bounds(const Vec3& at, std::span<const AngleRange> bounds) const {
+std::vector<MoveBound> AngleRing::move_bounds(const Vec3& at, std::span<const AngleRange> bounds) {
+  measure(at);
   std::vector<MoveBound> found;
   found.reserve(6 * sides_.size());
-  std::array<Vec3, 3> gradients;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const auto a = angles(sides_[i], at, &gradients);
+    const std::array<Vec3, 3> g = gradients(sides_[i], at);
     const AngleRange& bound = bounds[triangles_[i]];
     for (unsigned k = 0; k < 3; ++k) {
-      found.push_back({gradients[k], a[k] - bound.min});
-      found.push_back({-gradients[k], bound.max - a[k]});
+      found.push_back({g[k], angles_[3 * i + k] - bound.min});
+      found.push_back({-g[k], bound.max - angles_[3 * i + k]});
     }
   }
   return found;
@@ -134,62 +114,130 @@ bool AngleRing::turns_back() {
   return false;
 }
 
-std::array<double, 3> AngleRing::angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients) {
-  const Vec3 to_a = side.a - at;
-  const Vec3 to_b = side.b - at;
-  const Vec3 ab = side.b - side.a;
-  const Vec3 normal = to_a.cross(to_b);
-  const double length = normal.norm();
-  const double at_a = kDegrees * std::atan2(length, -to_a.dot(ab));
-  const double at_b = kDegrees * std::atan2(length, to_b.dot(ab));
-  if (gradients != nullptr) {
-    const Vec3 n = normal * (kDegrees / length);
-    // Turning the ray from a to the vertex about the normal opens the angle at a; at b it closes it.
-    const Vec3 ga = -n.cross(to_a) / to_a.squaredNorm();
-    const Vec3 gb = n.cross(to_b) / to_b.squaredNorm();
-    *gradients = {-ga - gb, ga, gb};
-  }
-  return {180 - at_a - at_b, at_a, at_b};
-}
-
-/// All scores of the ring, and their gradients if asked for.
-void AngleRing::collect(const Vec3& at, std::vector<Vec3>* gradients) {
-  scores_.clear();
-  if (gradients != nullptr) gradients->clear();
-  std::array<Vec3, 3> g;
-  for (const Side& side : sides_) {
-    const auto a = angles(side, at, gradients != nullptr ? &g : nullptr);
-    for (unsigned k = 0; k < 3; ++k) {
-      scores_.push_back(goal_.of_small(a[k]));
-      scores_.push_back(goal_.of_large(a[k]));
-      if (gradients == nullptr) continue;
-      gradients->push_back(g[k]);
-      gradients->push_back(-goal_.obtuse_weight * g[k]);
+void AngleRing::measure(const Vec3& at) {
+  if (measured_at_ == at) return;
+  measured_at_ = at;
+  angles_.resize(3 * sides_.size());
+  Lanes y, x, angles;
+  for (std::size_t first = 0; first < sides_.size(); first += kLanes / 2) {
+    const auto side_of = [&](unsigned i) { return std::min(first + i / 2, sides_.size() - 1); };
+    for (unsigned i = 0; i < kLanes; i += 2) {
+      const Side& side = sides_[side_of(i)];
+      const Vec3 to_a = side.a - at, to_b = side.b - at, ab = side.b - side.a;
+      y.at[i] = y.at[i + 1] = to_a.cross(to_b).norm();
+      x.at[i] = -to_a.dot(ab);
+      x.at[i + 1] = to_b.dot(ab);
+    }
+    angles_deg(y, x, angles);
+    for (unsigned i = 0; i < kLanes; i += 2) {
+      const double at_a = angles.at[i], at_b = angles.at[i + 1];
+      double* const of_side = &angles_[3 * side_of(i)];
+      of_side[0] = 180 - at_a - at_b;
+      of_side[1] = at_a;
+      of_side[2] = at_b;
     }
   }
 }
 
+std::array<Vec3, 3> AngleRing::gradients(const Side& side, const Vec3& at) {
+  const Vec3 to_a = side.a - at;
+  const Vec3 to_b = side.b - at;
+  const Vec3 normal = to_a.cross(to_b);
+  const Vec3 n = normal * (kDegrees / normal.norm());
+  // Turning the ray from a to the vertex about the normal opens the angle at a; at b it closes it.
+  const Vec3 ga = -n.cross(to_a) / to_a.squaredNorm();
+  const Vec3 gb = n.cross(to_b) / to_b.squaredNorm();
+  return {-ga - gb, ga, gb};
+}
+
+/// All scores of the ring.
+void AngleRing::collect(const Vec3& at) {
+  measure(at);
+  scores_.clear();
+  for (const double angle : angles_) {
+    scores_.push_back(goal_.of_small(angle));
+    scores_.push_back(goal_.of_large(angle));
+  }
+}
+
+/// Finds the least and the weights of a soft minimum for each group of scores.
+void AngleRing::weigh(std::span<const double> scores, std::size_t group, double sharpness) {
+  least_.clear();
+  weights_.resize((scores.size() + kLanes - 1) / kLanes * kLanes);
+  for (std::size_t first = 0; first < scores.size(); first += group) {
+    const auto of_group = scores.subspan(first, group);
+    const double least = *std::ranges::min_element(of_group);
+    least_.push_back(least);
+    for (std::size_t i = 0; i < group; ++i) weights_[first + i] = -sharpness * (of_group[i] - least);
+  }
+  Lanes exponents, powers;
+  for (std::size_t first = 0; first < scores.size(); first += kLanes) {
+    std::copy_n(weights_.begin() + static_cast<std::ptrdiff_t>(first), kLanes, exponents.at);
+    exp_of_negative(exponents, powers);
+    std::copy_n(powers.at, kLanes, weights_.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
 double AngleRing::soft_minimum_value(const Vec3& at, double sharpness) {
-  collect(at, nullptr);
-  return soft_value_of(scores_, sharpness);
+  collect(at);
+  weigh(scores_, scores_.size(), sharpness);
+  const double sum =
+      std::accumulate(weights_.begin(), weights_.begin() + static_cast<std::ptrdiff_t>(scores_.size()), 0.0);
+  return least_[0] - std::log(sum) / sharpness;
+}
+
+/// Of the group of scores from `first` on, one for each gradient.
+AngleRing::Soft AngleRing::soft_of(std::size_t first, std::span<const Vec3> gradients,
+                                   double sharpness) const {
+  double sum = 0;
+  Vec3 mean = Vec3::Zero();
+  Mat3 squares = Mat3::Zero();
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    const double weight = weights_[first + i];
+    sum += weight;
+    mean += weight * gradients[i];
+    squares += weight * gradients[i] * gradients[i].transpose();
+  }
+  mean /= sum;
+  return {least_[first / gradients.size()] - std::log(sum) / sharpness, mean,
+          sharpness * (squares / sum - mean * mean.transpose())};
 }
 
 AngleRing::Soft AngleRing::soft_minimum(const Vec3& at, double sharpness) {
-  collect(at, &gradients_);
-  return soft_of(scores_, gradients_, sharpness);
-}
-
-double AngleRing::sum_of_soft_minima_value(const Vec3& at, double sharpness) const {
-  double value = 0;
-  for (const Side& side : sides_) value += soft_value_of(angles(side, at, nullptr), sharpness);
-  return value;
-}
-
-AngleRing::Soft AngleRing::sum_of_soft_minima(const Vec3& at, double sharpness) const {
-  Soft sum{0, Vec3::Zero(), Mat3::Zero()};
-  std::array<Vec3, 3> gradients;
+  collect(at);
+  weigh(scores_, scores_.size(), sharpness);
+  gradients_.clear();
   for (const Side& side : sides_) {
-    const Soft soft = soft_of(angles(side, at, &gradients), gradients, sharpness);
+    for (const Vec3& g : gradients(side, at)) {
+      gradients_.push_back(g);
+      gradients_.push_back(-goal_.obtuse_weight * g);
+    }
+  }
+  return soft_of(0, gradients_, sharpness);
+}
+
+double AngleRing::sum_of_soft_minima_value(const Vec3& at, double sharpness) {
+  measure(at);
+  weigh(angles_, 3, sharpness);
+  // One logarithm for many sums, each from 1 to 3.
+  constexpr double kLarge = 1e250;
+  double least = 0, logarithms = 0, product = 1;
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    least += least_[i];
+    product *= weights_[3 * i] + weights_[3 * i + 1] + weights_[3 * i + 2];
+    if (product < kLarge) continue;
+    logarithms += std::log(product);
+    product = 1;
+  }
+  return least - (logarithms + std::log(product)) / sharpness;
+}
+
+AngleRing::Soft AngleRing::sum_of_soft_minima(const Vec3& at, double sharpness) {
+  measure(at);
+  weigh(angles_, 3, sharpness);
+  Soft sum{0, Vec3::Zero(), Mat3::Zero()};
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const Soft soft = soft_of(3 * i, gradients(sides_[i], at), sharpness);
     sum.value += soft.value;
     sum.gradient += soft.gradient;
     sum.spread += soft.spread;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "smoothing/bounded_move.h"
@@ -47,7 +48,7 @@ class AngleRing {
   [[nodiscard]] std::span<const Index> triangles() const { return triangles_; }
   [[nodiscard]] std::span<const AngleRange> ranges(const Vec3& at);
   /// What keeps all angles within their triangles' bounds (by number) for moves from `at`, in degrees.
-  [[nodiscard]] std::vector<MoveBound> move_bounds(const Vec3& at, std::span<const AngleRange> bounds) const;
+  [[nodiscard]] std::vector<MoveBound> move_bounds(const Vec3& at, std::span<const AngleRange> bounds);
 
   /// Whether no triangle turns over or too far when the vertex goes to `at`.
   [[nodiscard]] bool is_upright(const Vec3& at);
@@ -55,8 +56,8 @@ class AngleRing {
   [[nodiscard]] double soft_minimum_value(const Vec3& at, double sharpness);
   [[nodiscard]] Soft soft_minimum(const Vec3& at, double sharpness);
   /// The sum of the triangles' soft minima, each of its own angles alone.
-  [[nodiscard]] double sum_of_soft_minima_value(const Vec3& at, double sharpness) const;
-  [[nodiscard]] Soft sum_of_soft_minima(const Vec3& at, double sharpness) const;
+  [[nodiscard]] double sum_of_soft_minima_value(const Vec3& at, double sharpness);
+  [[nodiscard]] Soft sum_of_soft_minima(const Vec3& at, double sharpness);
   /// Length of the shortest edge at the vertex.
   [[nodiscard]] double shortest_edge(const Vec3& at) const;
 
@@ -77,9 +78,13 @@ class AngleRing {
 
   void find_neighbours(std::span<const Vec3> positions, Index vertex);
   [[nodiscard]] bool turns_back();
-  /// Angles in degrees at the vertex, at a and at b, and optionally their gradients.
-  static std::array<double, 3> angles(const Side& side, const Vec3& at, std::array<Vec3, 3>* gradients);
-  void collect(const Vec3& at, std::vector<Vec3>* gradients);
+  /// Angles of all sides' triangles, in degrees, at the vertex, at a and at b, to angles_.
+  void measure(const Vec3& at);
+  /// Their gradients for one of them.
+  static std::array<Vec3, 3> gradients(const Side& side, const Vec3& at);
+  void collect(const Vec3& at);
+  void weigh(std::span<const double> scores, std::size_t group, double sharpness);
+  [[nodiscard]] Soft soft_of(std::size_t first, std::span<const Vec3> gradients, double sharpness) const;
 
   const SmoothingProblem& problem_;
   TurnLimit turns_;
@@ -89,7 +94,11 @@ class AngleRing {
   std::vector<Neighbour> neighbours_;
   std::vector<Vec3> areas_;
   std::vector<Folds> folds_;
+  std::vector<double> angles_;  // three for each side
+  std::optional<Vec3> measured_at_;
   std::vector<double> scores_;
+  std::vector<double> least_;    // of each group of scores
+  std::vector<double> weights_;  // e^(-b (score - least)), and more to fill up
   std::vector<Vec3> gradients_;
   std::vector<AngleRange> ranges_;
 };

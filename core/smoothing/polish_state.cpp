@@ -18,8 +18,8 @@ constexpr double kPolishReach = 0.2;
 constexpr unsigned kPolishHalvings = 5;
 constexpr unsigned kTurnedHalvings = 2;
 /// Turns of a move that is held back, in the order in which they are tried; radians.
-/// A vertex at bounds that could gain less than this, in degrees, stays; one that could gain more has so many
-/// tries, each with what was missing times the factor.
+/// A vertex at bounds that could gain less than this, in degrees or of its energy, stays; one that could gain
+/// more has so many tries, each with what was missing times the factor.
 constexpr double kLeastClimb = 1e-5;
 constexpr unsigned kBoundRounds = 4;
 constexpr double kCorrection = 1.5;

@@ -50,6 +50,7 @@ TEST(BestMove, IsTheBestWithinRandomBounds) {
     block.h11 = 0.2 + a * a, block.h12 = a * b, block.h22 = 0.2 + b * b + c * c;
     const Vec3 g(u(engine), u(engine), u(engine));
     std::vector<MoveBound> bounds;
+    bounds.reserve(12);
     for (int k = 0; k < 12; ++k)
       bounds.push_back({Vec3(u(engine), u(engine), u(engine)), std::max(0.0, u(engine))});
     const Vec3 best = best_move(block, g, bounds);
