@@ -8,7 +8,6 @@
 #include "mesh/lane_math.h"
 
 namespace isorelax {
-namespace {}  // namespace
 
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double at_a = angle_between_deg(b - a, c - a);
@@ -46,8 +45,8 @@ void AngleRing::find_neighbours(std::span<const Vec3> positions, Index vertex) {
                              turns_.folds_of(positions, beyond / 3, c / 3)});
     }
     const Corner beside = problem_.topology.opposite(c - c % 3 + next(c % 3));
-    const auto other = std::ranges::find(triangles_, beside / 3);
-    if (beside != kNone && other != triangles_.end())
+    const auto other = std::ranges::lower_bound(triangles_, beside / 3);
+    if (beside != kNone && other != triangles_.end() && *other == beside / 3)
       neighbours_.push_back(
           {side, static_cast<std::size_t>(other - triangles_.begin()), *other, Vec3::Zero(), {}});
     ++side;
