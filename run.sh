@@ -27,7 +27,7 @@ say "No display: smoothing ${sample#"$root/"} into $out"
 "$program" smooth "$sample" -o "$out/after.ply" --report "$out/report.json" --quiet
 "$program" render "$sample" -o "$out/before.png" --color angle --size 1280x960
 "$program" render "$out/after.ply" -o "$out/after.png" --color angle --size 1280x960
-"$program" view "$out/after.ply" --screenshot "$out/editor.png"
+"$program" view "$sample" --after-iterations 50 --screenshot "$out/editor.png"
 printf 'Smallest angle before: %.2f degrees  %s\n' "$(min_angle "$sample")" "$out/before.png"
 printf 'Smallest angle after:  %.2f degrees  %s\n' "$(min_angle "$out/after.ply")" "$out/after.png"
 printf 'Report: %s\nEditor: %s\n' "$out/report.json" "$out/editor.png"
