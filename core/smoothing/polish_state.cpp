@@ -134,9 +134,7 @@ std::optional<Vec3> PolishState::along_bounds(const Climb& climb, const NewtonBl
     const Vec3 move = best_move(model, climb.soft.gradient, limits);
     if (!(move.dot(climb.soft.gradient) > kLeastClimb)) return std::nullopt;
     const Vec3 there = bring_back(problem_, climb.vertex, climb.at + move);
-    const Hold hold = hold_at(climb.vertex, there, climb.bounds);
-    if (hold == Hold::none && climb.value(there) > climb.soft.value) return there;
-    if (hold != Hold::angles) return along(climb, 0.5 * move, kTurnedHalvings);
+    if (hold_of_triangles(there, climb.bounds) != Hold::angles) return along(climb, move, kTurnedHalvings);
     const std::vector<MoveBound> beyond = ring_.move_bounds(there, climb.bounds);
     for (std::size_t i = 0; i < limits.size(); ++i)
       limits[i].slack += kCorrection * std::min(0.0, beyond[i].slack);
@@ -158,7 +156,7 @@ NewtonBlock PolishState::model_of(const Climb& climb) const {
   return block;
 }
 
-PolishState::Hold PolishState::hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
+PolishState::Hold PolishState::hold_of_triangles(const Vec3& there, std::span<const AngleRange> bounds) {
   if (!ring_.is_upright(there)) {
     held_back_ |= kLimitFold;
     return Hold::fold;
@@ -170,6 +168,12 @@ PolishState::Hold PolishState::hold_at(Index vertex, const Vec3& there, std::spa
     held_back_ |= kLimitFold;
     return Hold::angles;
   }
+  return Hold::none;
+}
+
+/// Where nothing holds the vertex, the distance is counted from there on: what is asked last.
+PolishState::Hold PolishState::hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
+  if (const Hold hold = hold_of_triangles(there, bounds); hold != Hold::none) return hold;
   const Vec3 here = x_[vertex];
   x_[vertex] = there;
   const bool near = surface_.keeps(x_, vertex);

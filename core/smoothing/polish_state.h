@@ -70,6 +70,7 @@ class PolishState {
   /// Where a move and its halves lead, if one of them may be made.
   [[nodiscard]] std::optional<Vec3> along(const Climb& climb, const Vec3& move, unsigned halvings);
   [[nodiscard]] std::optional<Vec3> along_bounds(const Climb& climb, const NewtonBlock& model);
+  [[nodiscard]] Hold hold_of_triangles(const Vec3& there, std::span<const AngleRange> bounds);
   [[nodiscard]] Hold hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
 
   const SmoothingProblem& problem_;
