@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <numbers>
 
+#include "mesh/angle.h"
+
 namespace isorelax {
 namespace {
 
 constexpr double kTanOf22Deg5 = 0.41421356237309503;
-constexpr double kDegreesInRadian = 180 / std::numbers::pi;
 /// atan(q) / q as a polynomial of q^2 from 0 to tan^2(22.5 deg): interpolated at Chebyshev's points, to
 /// 6e-17.
 constexpr std::array kAtan = {1.0,
@@ -60,7 +61,7 @@ void angles_deg(const Lanes& y, const Lanes& x, Lanes& angles) {
     const double over = turns ? s - l : s;
     const double under = turns ? s + l : l;
     const double q = over / (under > 0 ? under : 1);
-    const double part = kDegreesInRadian * (q * polynomial(kAtan, q * q));
+    const double part = kDegrees * (q * polynomial(kAtan, q * q));
     const double from_longer = turns ? 45 + part : part;
     const double from_axis = up <= along ? from_longer : 90 - from_longer;
     angles.at[i] = x.at[i] < 0 ? 180 - from_axis : from_axis;

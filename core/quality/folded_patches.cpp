@@ -8,8 +8,6 @@
 namespace isorelax {
 namespace {
 
-/// Cosine of 120 degrees.
-constexpr double kPatchFoldCosine = -0.5;
 constexpr std::size_t kLargestShare = 10;
 
 /// Disjoint sets; the representative of each is its smallest member.

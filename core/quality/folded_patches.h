@@ -8,6 +8,9 @@
 
 namespace isorelax {
 
+/// Cosine of the turn over an edge beyond which it cuts patches apart: 120 degrees.
+inline constexpr double kPatchFoldCosine = -0.5;
+
 /// One flag per triangle: whether it belongs to a patch that is folded over. Patches are what the edges
 /// across which the surface turns by more than 120 degrees cut a mesh into. Those with more than a tenth of
 /// the triangles of their connected part are right side up (a lens or a thin leaf has two such halves), else

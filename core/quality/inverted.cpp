@@ -12,8 +12,6 @@ namespace isorelax {
 namespace {
 
 constexpr double kPlanarTolerance = 1e-6;
-/// Cosine of the turn beyond which an edge counts as a fold: 150 degrees.
-constexpr double kFoldCosine = -0.86602540378443865;
 
 struct Faces {
   std::span<const Vec3> positions;

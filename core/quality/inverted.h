@@ -9,6 +9,9 @@
 
 namespace isorelax {
 
+/// Cosine of the turn over an edge beyond which it counts as a fold of a triangle: 150 degrees.
+inline constexpr double kFoldCosine = -0.86602540378443865;
+
 /// Ids of the triangles that lie upside down, ascending.
 ///
 /// A mesh in one plane (to 1e-6 of its bounding-box diagonal): those whose signed area has the other sign

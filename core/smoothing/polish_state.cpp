@@ -112,15 +112,20 @@ std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const Angle
   return std::nullopt;
 }
 
+bool PolishState::leads_up_to(const Climb& climb, const Vec3& there) {
+  hold_ = Hold::none;
+  if (!(climb.value(there) > climb.soft.value)) return false;
+  hold_ = hold_at(climb.vertex, there, climb.bounds);
+  return hold_ == Hold::none;
+}
+
 /// Ends at once where bounds on angles hold the vertex back in a plane: halves lead there more slowly than a
 /// move along them.
 std::optional<Vec3> PolishState::along(const Climb& climb, const Vec3& direction, unsigned halvings) {
   Vec3 move = direction;
   for (unsigned k = 0; k <= halvings; ++k, move *= 0.5) {
     const Vec3 there = bring_back(problem_, climb.vertex, climb.at + move);
-    if (!(climb.value(there) > climb.soft.value)) continue;
-    hold_ = hold_at(climb.vertex, there, climb.bounds);
-    if (hold_ == Hold::none) return there;
+    if (leads_up_to(climb, there)) return there;
     if (hold_ == Hold::angles && problem_.mobility[climb.vertex] == Mobility::plane) break;
   }
   return std::nullopt;
@@ -134,7 +139,10 @@ std::optional<Vec3> PolishState::along_bounds(const Climb& climb, const NewtonBl
     const Vec3 move = best_move(model, climb.soft.gradient, limits);
     if (!(move.dot(climb.soft.gradient) > kLeastClimb)) return std::nullopt;
     const Vec3 there = bring_back(problem_, climb.vertex, climb.at + move);
-    if (hold_of_triangles(there, climb.bounds) != Hold::angles) return along(climb, move, kTurnedHalvings);
+    if (hold_of_triangles(there, climb.bounds) != Hold::angles) {
+      if (leads_up_to(climb, there)) return there;
+      return along(climb, 0.5 * move, kTurnedHalvings - 1);
+    }
     const std::vector<MoveBound> beyond = ring_.move_bounds(there, climb.bounds);
     for (std::size_t i = 0; i < limits.size(); ++i)
       limits[i].slack += kCorrection * std::min(0.0, beyond[i].slack);

@@ -67,6 +67,8 @@ class PolishState {
     std::span<const AngleRange> bounds;
   };
   [[nodiscard]] NewtonBlock model_of(const Climb& climb) const;
+  /// Whether a place is higher, and nothing holds the vertex back from it.
+  [[nodiscard]] bool leads_up_to(const Climb& climb, const Vec3& there);
   /// Where a move and its halves lead, if one of them may be made.
   [[nodiscard]] std::optional<Vec3> along(const Climb& climb, const Vec3& move, unsigned halvings);
   [[nodiscard]] std::optional<Vec3> along_bounds(const Climb& climb, const NewtonBlock& model);
@@ -80,7 +82,7 @@ class PolishState {
   std::vector<Vec3> x_;
   std::vector<AngleRange> ranges_;
   std::uint16_t held_back_ = 0;
-  Hold hold_ = Hold::none;   // of the last climb's last try that would have been higher
+  Hold hold_ = Hold::none;   // of the last try; none where it was not higher
   std::uint64_t clock_ = 0;  // changes so far
   std::vector<std::uint64_t> changed_at_, stuck_at_;
 };

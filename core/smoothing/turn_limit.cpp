@@ -5,17 +5,19 @@
 #include <numbers>
 
 #include "mesh/parallel.h"
+#include "quality/folded_patches.h"
+#include "quality/inverted.h"
 
 namespace isorelax {
 namespace {
 
-/// Cosines of the turns from which on edges count as folds of either kind, 120 and 150 degrees, and of a
-/// degree less, which they may not come to.
+/// Cosines of the turns from which on edges count as folds of either kind, and of a degree less, which they
+/// may not come to.
 struct Kind {
   double cosine, allowed;
 };
 constexpr std::array<Kind, 2> kKinds = {
-    {{-0.5, -0.48480962024633706}, {-0.86602540378443865, -0.85716730070211233}}};
+    {{kPatchFoldCosine, -0.48480962024633706}, {kFoldCosine, -0.85716730070211233}}};
 constexpr double kRounding = 1e-9;
 constexpr std::uint8_t kNever = 255;
 

@@ -62,7 +62,7 @@ TEST(FitSampler, TakesWholeRingsEachSectorOnce) {
 }
 
 TEST(FitSampler, DoesNotCrossAWall) {
-  // A wall about the first triangle: three sectors that know each other only.
+  // A wall about one triangle: three sectors that know each other only.
   const TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.seed = 1, .triangles = 200, .jitter = 0});
   const Topology topology(mesh.triangles, mesh.vertex_count());
   const auto inside = static_cast<Index>(mesh.triangles.size() / 2);
