@@ -83,7 +83,7 @@ class AdvectCommand : public Command {
   [[nodiscard]] std::string notes() const override { return kAdvectNotes; }
   void declare(CLI::App& app) override {
     app_ = &app;
-    app.add_option("IN", input_, "Mesh to start from: OFF, OBJ, PLY or STL; none: a sphere");
+    app.add_option("IN", input_, "Mesh to start from: " + format_names() + "; none: a sphere");
     app.add_option("-o,--output", output_, "Folder to write")->type_name("DIR");
     app.add_option("--resume", resume_,
                    "Go on from this state of an earlier run, in its folder, with its options")

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "io/mesh_file.h"
+
 namespace isorelax::cli {
 
 /// Check for counts and seeds: a whole number, not under `least`. CLI11 by itself reads "-1" into an unsigned
@@ -17,6 +19,14 @@ inline CLI::Validator whole_number(std::uint64_t least) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool sound = error == std::errc{} && end == text.data() + text.size() && value >= least;
     return sound ? std::string() : text + " is not a whole number of " + std::to_string(least) + " or more";
+  };
+  return CLI::Validator(check, "");
+}
+
+/// Check for a format of meshes, named by the extension of its files.
+inline CLI::Validator mesh_format() {
+  const auto check = [](const std::string& text) {
+    return format_of_extension("mesh." + text) ? std::string() : text + " is none of " + format_names();
   };
   return CLI::Validator(check, "");
 }

@@ -57,7 +57,7 @@ class GenerateCommand : public Command {
   }
   void declare(CLI::App& app) override {
     app.add_option("KIND", kind_, "What to make, see below")->required();
-    app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
+    app.add_option("-o,--output", output_, "File to write: " + format_names() + " by its extension")
         ->required()
         ->type_name("FILE");
     app.add_option("--seed", options_.seed, "Number that all randomness follows from (default 1)")

@@ -100,7 +100,7 @@ class InfoCommand : public Command {
            "Example:\n  isorelax info bunny.off --json";
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "Mesh: OFF, OBJ, PLY or STL")->required();
+    app.add_option("FILE", file_, "Mesh: " + format_names())->required();
     app.add_flag("--json", json_, "Print one JSON object");
   }
   int run(Console& console) override {

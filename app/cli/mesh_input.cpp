@@ -15,10 +15,4 @@ TriangleMesh read_input(Console& console, const std::string& path) {
   return std::move(read_input_file(console, path).mesh);
 }
 
-WriteOptions write_like(const MeshFile& input, const std::string& path) {
-  WriteOptions options;
-  if (format_of_extension(path) == input.format) options.encoding = input.encoding;
-  return options;
-}
-
 }  // namespace isorelax::cli

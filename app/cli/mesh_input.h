@@ -15,7 +15,4 @@ class Console;
 /// The same with what is known of the file.
 [[nodiscard]] MeshFile read_input_file(Console& console, const std::string& path);
 
-/// How to write what came from `input` to `path`: text stays text where the format stays the same.
-[[nodiscard]] WriteOptions write_like(const MeshFile& input, const std::string& path);
-
 }  // namespace isorelax::cli

@@ -121,7 +121,7 @@ class QualityCommand : public Command {
            "  isorelax quality smoothed.off --reference original.off";
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "Mesh: OFF, OBJ, PLY or STL")->required();
+    app.add_option("FILE", file_, "Mesh: " + format_names())->required();
     app.add_flag("--json", json_, "Print one JSON object");
     app.add_option("--worst", worst_,
                    "List the N triangles with the smallest angles (\"worst\" in the object)")

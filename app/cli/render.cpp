@@ -62,7 +62,7 @@ class RenderCommand : public Command {
            "  isorelax render other.off -o other.png --like part.png --color area --range 0.5:2";
   }
   void declare(CLI::App& app) override {
-    app.add_option("FILE", files_, "Meshes: OFF, OBJ, PLY or STL");
+    app.add_option("FILE", files_, "Meshes: " + format_names());
     app.add_option("-o,--output", output_, "PNG to write")->required()->type_name("PNG");
     options_.declare(app);
     app.add_option("--save-view", view_file_, "Write the view here, to be read by --camera")

@@ -156,8 +156,8 @@ class TraceCommand : public Command {
     export_->add_option("--json", json_file_, "The same with the run's arguments")->type_name("FILE");
     export_->add_option("--meshes", meshes_, "Folder for the meshes of the chosen iterations")
         ->type_name("FOLDER");
-    export_->add_option("--format", format_, "Their format: off (default), obj, ply or stl")
-        ->check(CLI::IsMember({"off", "obj", "ply", "stl"}))
+    export_->add_option("--format", format_, "Their format: " + format_names() + " (default OFF)")
+        ->check(mesh_format())
         ->type_name("F");
     export_->add_option("--vtk", vtk_, "Folder for a series that ParaView opens (trace.pvd)")
         ->type_name("FOLDER");

@@ -31,7 +31,7 @@ class ViewCommand : public Command {
   }
 
   void declare(CLI::App& app) override {
-    app.add_option("files", files_, "Meshes: OFF, OBJ, PLY or STL; or recorded runs (smooth --trace)")
+    app.add_option("files", files_, "Meshes: " + format_names() + "; or recorded runs (smooth --trace)")
         ->type_name("FILE");
     app.add_option("--screenshot", screenshot_,
                    "Draw the editor into this PNG file instead of opening a window")

@@ -65,4 +65,12 @@ DocumentPtr read_document(const std::filesystem::path& path) {
   return make_document(path, read_mesh(path));
 }
 
+bool has_mesh_extension(const std::filesystem::path& path) {
+  return format_of_extension(path).has_value();
+}
+
+std::string mesh_formats() {
+  return format_names();
+}
+
 }  // namespace isorelax::model

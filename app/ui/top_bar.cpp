@@ -48,7 +48,7 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
   const bool open = s.current != nullptr;
   tool(ui, {.name = "open",
             .label = "Open",
-            .tip = "Open a mesh: OFF, OBJ, PLY or STL.",
+            .tip = "Open a mesh: " + model::mesh_formats() + ".",
             .icon = Icon::open,
             .action = Action::open});
   tool(ui, {.name = "save",

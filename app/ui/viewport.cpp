@@ -46,7 +46,7 @@ void draw_welcome(const Ui& ui, const Rect& rect) {
   const float middle = 0.5F * rect.width();
   ImGui::SetCursorPosY(0.36F * rect.height());
   centered(ui.fonts.title, middle, color::kText, "Drop a mesh here");
-  centered(ui.fonts.text, middle, color::kTextDim, "OFF, OBJ, PLY or STL");
+  centered(ui.fonts.text, middle, color::kTextDim, model::mesh_formats());
   ImGui::Dummy({0, ui.px(8)});
   const float width = ui.px(180);
   ImGui::SetCursorPosX(middle - 0.5F * width);
@@ -124,7 +124,7 @@ std::string describe_selection(const model::Session& s) {
   if (!s.selected_triangle || !s.current) return {};
   const Index t = *s.selected_triangle;
   const model::Geometry& g = *s.current->geometry;
-  const std::string rank = s.worst_rank > 0 ? ", worst no. " + std::to_string(s.worst_rank) : "";
+  const std::string rank = s.rank_of_worst() > 0 ? ", worst no. " + std::to_string(s.rank_of_worst()) : "";
   std::string text = "Triangle " + std::to_string(t) + rank + ":  " +
                      number_text("%.2f", g.min_angle_values[t]) + "\xC2\xB0 to " +
                      number_text("%.2f", g.max_angle_values[t]) + "\xC2\xB0,  area " +

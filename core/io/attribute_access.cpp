@@ -135,6 +135,20 @@ std::vector<std::string> report_not_written(const MeshAttributes& attributes, co
     report(&labels, counted(labels.labels.size(), "face label", "face labels") + " of kind " +
                         in_quotes(labels.keyword));
   }
+  for (const LowerElements* elements : {&attributes.points, &attributes.lines}) {
+    if (elements->count() == 0) {
+      continue;
+    }
+    const bool points = elements->corners == 1;
+    const std::string noun = points ? "points" : "lines";
+    report(elements,
+           counted(elements->count(), points ? "point" : "line", noun.c_str()) + " beside the triangles");
+    for (const Attribute& attribute : elements->values) {
+      if (written.contains(elements)) {
+        report(&attribute, "attribute " + in_quotes(attribute.name) + " of " + noun);
+      }
+    }
+  }
   if (!attributes.comments.empty()) {
     report(&attributes.comments, counted(attributes.comments.size(), "comment", "comments"));
   }

@@ -43,16 +43,50 @@ bool looks_like_obj(std::string_view bytes) {
   return std::find(kOthers.begin(), kOthers.end(), word) != kOthers.end();
 }
 
+/// Gmsh writes sections between $Name and $EndName; others than the format may come first.
+bool looks_like_msh(std::string_view bytes) {
+  static constexpr std::array<std::string_view, 3> kFirst{"$MeshFormat", "$Comments", "$NOD"};
+  TextScanner text(bytes.substr(0, kSniffed), "", {});
+  const std::string_view word = text.word_across_lines();
+  return std::find(kFirst.begin(), kFirst.end(), word) != kFirst.end();
+}
+
+bool looks_like_vtk(std::string_view bytes) {
+  return lower_case(std::string(bytes.substr(0, kSniffed)).substr(0, 14)) == "# vtk datafile";
+}
+
+/// The format that an XML file of VTK's names; of one that holds no surface, too, so that its reader says so.
+std::optional<FileFormat> vtk_xml_format(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, kSniffed);
+  const std::size_t begin = head.find("<VTKFile");
+  if (begin == std::string_view::npos || head.find_first_not_of(" \t\r\n\xef\xbb\xbf") != head.find('<'))
+    return std::nullopt;
+  const std::string_view tag = head.substr(begin, head.find('>', begin) - begin);
+  return tag.find("PolyData") != std::string_view::npos ? FileFormat::vtp : FileFormat::vtu;
+}
+
 }  // namespace
 
 const char* format_name(FileFormat format) {
-  static constexpr std::array<const char*, 4> kNames{"OFF", "OBJ", "PLY", "STL"};
+  static constexpr std::array<const char*, kFileFormats.size()> kNames{"OFF", "OBJ", "PLY", "STL",
+                                                                       "MSH", "VTK", "VTP", "VTU"};
   return kNames[static_cast<std::size_t>(format)];
+}
+
+std::string format_names() {
+  std::string names;
+  for (const FileFormat format : kFileFormats) {
+    if (!names.empty()) {
+      names += format == kFileFormats.back() ? " or " : ", ";
+    }
+    names += format_name(format);
+  }
+  return names;
 }
 
 std::optional<FileFormat> format_of_extension(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl}) {
+  for (const FileFormat format : kFileFormats) {
     if (extension == "." + lower_case(format_name(format))) {
       return format;
     }
@@ -61,6 +95,16 @@ std::optional<FileFormat> format_of_extension(const std::filesystem::path& path)
 }
 
 std::optional<FileFormat> format_of_content(std::string_view bytes) {
+  // Before OFF, where # begins a comment.
+  if (looks_like_vtk(bytes)) {
+    return FileFormat::vtk;
+  }
+  if (const auto xml = vtk_xml_format(bytes)) {
+    return xml;
+  }
+  if (looks_like_msh(bytes)) {
+    return FileFormat::msh;
+  }
   if (looks_like_ply(bytes)) {
     return FileFormat::ply;
   }

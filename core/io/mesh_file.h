@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,13 +12,18 @@
 
 namespace isorelax {
 
-enum class FileFormat : std::uint8_t { off, obj, ply, stl };
+enum class FileFormat : std::uint8_t { off, obj, ply, stl, msh, vtk, vtp, vtu };
+inline constexpr std::array kFileFormats{FileFormat::off, FileFormat::obj, FileFormat::ply, FileFormat::stl,
+                                         FileFormat::msh, FileFormat::vtk, FileFormat::vtp, FileFormat::vtu};
 
-/// How numbers stand in a file. OFF and OBJ are always text; binary STL is always little endian.
+/// How numbers stand in a file. OFF and OBJ are always text; binary STL is always little endian, binary VTK
+/// always big endian; other binary files are written little endian.
 enum class FileEncoding : std::uint8_t { text, binary_little_endian, binary_big_endian };
 
-/// "OFF", "OBJ", "PLY" or "STL".
+/// "OFF", "OBJ", "PLY", ...: also the extension, in capitals.
 [[nodiscard]] const char* format_name(FileFormat format);
+/// "OFF, OBJ, PLY, ... or VTU": what is read and written.
+[[nodiscard]] std::string format_names();
 
 /// The format that the extension of `path` names, in any case of letters; none for any other extension.
 [[nodiscard]] std::optional<FileFormat> format_of_extension(const std::filesystem::path& path);
@@ -34,7 +40,8 @@ struct MeshFile {
   std::vector<std::string> messages;
 };
 
-/// Reads OFF, OBJ, PLY or STL. The content decides which; the extension only where the content is undecided.
+/// Reads a mesh file of any FileFormat. The content decides which; the extension only where the content is
+/// undecided.
 ///
 /// Vertex order is the file's (STL: order of first appearance of each position). Polygons are cut into
 /// triangles. Time and memory are bounded by the size of the file, whatever its header says.
@@ -53,13 +60,26 @@ void check_readable(const std::filesystem::path& path);
 [[nodiscard]] MeshFile read_obj(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFile read_ply(std::string_view bytes, const std::string& name);
 [[nodiscard]] MeshFile read_stl(std::string_view bytes, const std::string& name);
+/// Gmsh's own format, versions 2 and 4.1, text and binary.
+[[nodiscard]] MeshFile read_msh(std::string_view bytes, const std::string& name);
+/// Legacy VTK files: POLYDATA and UNSTRUCTURED_GRID, ASCII and BINARY.
+[[nodiscard]] MeshFile read_vtk(std::string_view bytes, const std::string& name);
+/// VTK's XML files: PolyData (VTP) and UnstructuredGrid (VTU), serial, uncompressed or with zlib.
+[[nodiscard]] MeshFile read_vtk_xml(std::string_view bytes, const std::string& name);
+
+/// Whether files of a format are written in this encoding.
+[[nodiscard]] bool is_written_as(FileFormat format, FileEncoding encoding);
 
 struct WriteOptions {
   /// None: by the extension of the path.
   std::optional<FileFormat> format;
-  /// None: little-endian binary for PLY and STL, text for OFF and OBJ.
+  /// None: text for OFF, OBJ and MSH, big-endian binary for VTK, little-endian binary for all others.
   std::optional<FileEncoding> encoding;
 };
+
+/// How to write to `path` what was read from `input`: text stays text, and binary binary, where the format
+/// stays the same.
+[[nodiscard]] WriteOptions write_like(const MeshFile& input, const std::filesystem::path& path);
 
 /// A file's bytes, and one line for each kind of thing that the format could not hold.
 struct EncodedMesh {
@@ -67,13 +87,18 @@ struct EncodedMesh {
   std::vector<std::string> messages;
 };
 
-/// Writers of one format into memory. OFF, OBJ and PLY hold every position bit for bit; so does text STL, but
-/// STL forgets which triangles share a vertex. Throw UsageError for an encoding that the format does not
+/// Writers of one format into memory. All but STL hold every position bit for bit; so does text STL, but STL
+/// forgets which triangles share a vertex. Throw UsageError for an encoding that the format does not
 /// have. Precondition: the mesh's invariants (indices in range, attribute arrays of matching size).
 [[nodiscard]] EncodedMesh encode_off(const TriangleMesh& mesh);
 [[nodiscard]] EncodedMesh encode_obj(const TriangleMesh& mesh);
 [[nodiscard]] EncodedMesh encode_ply(const TriangleMesh& mesh, FileEncoding encoding);
 [[nodiscard]] EncodedMesh encode_stl(const TriangleMesh& mesh, FileEncoding encoding);
+/// Version 2.2, which all programs read.
+[[nodiscard]] EncodedMesh encode_msh(const TriangleMesh& mesh, FileEncoding encoding);
+[[nodiscard]] EncodedMesh encode_vtk(const TriangleMesh& mesh, FileEncoding encoding);
+[[nodiscard]] EncodedMesh encode_vtp(const TriangleMesh& mesh, FileEncoding encoding);
+[[nodiscard]] EncodedMesh encode_vtu(const TriangleMesh& mesh, FileEncoding encoding);
 
 /// Writes the mesh whole or not at all and returns what the format could not hold.
 ///

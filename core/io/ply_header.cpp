@@ -108,24 +108,6 @@ void read_property(TextScanner& text, PlyHeader& header) {
 
 }  // namespace
 
-std::size_t size_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::int8:
-    case ScalarType::uint8:
-      return 1;
-    case ScalarType::int16:
-    case ScalarType::uint16:
-      return 2;
-    case ScalarType::int32:
-    case ScalarType::uint32:
-    case ScalarType::float32:
-      return 4;
-    case ScalarType::float64:
-      return 8;
-  }
-  return 8;
-}
-
 const char* ply_type_name(ScalarType type) {
   return kTypeNames[static_cast<std::size_t>(type)].name;
 }

@@ -11,9 +11,6 @@
 
 namespace isorelax {
 
-/// Bytes of one number in a binary file.
-[[nodiscard]] std::size_t size_of(ScalarType type);
-
 /// The name that PLY files use: "uchar", "int", "float", "double" ...
 [[nodiscard]] const char* ply_type_name(ScalarType type);
 

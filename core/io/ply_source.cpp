@@ -1,36 +1,10 @@
 #include "io/ply_source.h"
 
 #include "io/attribute_access.h"
-#include "io/byte_order.h"
+#include "io/scalar_bytes.h"
 #include "mesh/error.h"
 
 namespace isorelax {
-namespace {
-
-double load_scalar(const char* bytes, ScalarType type, std::endian order) {
-  switch (type) {
-    case ScalarType::int8:
-      return load_bytes<std::int8_t>(bytes, order);
-    case ScalarType::uint8:
-      return load_bytes<std::uint8_t>(bytes, order);
-    case ScalarType::int16:
-      return load_bytes<std::int16_t>(bytes, order);
-    case ScalarType::uint16:
-      return load_bytes<std::uint16_t>(bytes, order);
-    case ScalarType::int32:
-      return load_bytes<std::int32_t>(bytes, order);
-    case ScalarType::uint32:
-      return load_bytes<std::uint32_t>(bytes, order);
-    case ScalarType::float32:
-      return static_cast<double>(load_bytes<float>(bytes, order));
-    case ScalarType::float64:
-      return load_bytes<double>(bytes, order);
-  }
-  return 0.0;
-}
-
-}  // namespace
-
 PlySource::PlySource(std::string_view bytes, const std::string& name, const PlyHeader& header)
     : bytes_(bytes),
       text_(bytes.substr(header.size), name, {}),
@@ -48,7 +22,7 @@ double PlySource::text_number(ScalarType type) {
   if (!value) {
     fail("not a number: " + in_quotes(word));
   }
-  const bool whole = type != ScalarType::float32 && type != ScalarType::float64;
+  const bool whole = !is_real(type);
   if (whole && !fits(*value == 0.0 ? 0.0 : *value, type)) {
     fail(in_quotes(word) + " is not of type " + ply_type_name(type));
   }

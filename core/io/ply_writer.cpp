@@ -4,9 +4,9 @@
 #include <set>
 
 #include "io/attribute_access.h"
-#include "io/byte_order.h"
 #include "io/mesh_file.h"
 #include "io/ply_columns.h"
+#include "io/scalar_bytes.h"
 #include "io/text_out.h"
 #include "io/text_scanner.h"
 
@@ -159,30 +159,11 @@ void PlyWriter::describe_texture() {
 }
 
 void PlyWriter::put(double value, ScalarType type) {
-  if (text_) {
-    const bool real = type == ScalarType::float32 || type == ScalarType::float64;
-    real ? append_number(out_, value) : append_whole(out_, value);
-    out_ += ' ';
-    return;
+  if (!text_) {
+    return append_scalar(out_, value, type, order_);
   }
-  switch (type) {
-    case ScalarType::int8:
-      return append_bytes(out_, static_cast<std::int8_t>(value), order_);
-    case ScalarType::uint8:
-      return append_bytes(out_, static_cast<std::uint8_t>(value), order_);
-    case ScalarType::int16:
-      return append_bytes(out_, static_cast<std::int16_t>(value), order_);
-    case ScalarType::uint16:
-      return append_bytes(out_, static_cast<std::uint16_t>(value), order_);
-    case ScalarType::int32:
-      return append_bytes(out_, static_cast<std::int32_t>(value), order_);
-    case ScalarType::uint32:
-      return append_bytes(out_, static_cast<std::uint32_t>(value), order_);
-    case ScalarType::float32:
-      return append_bytes(out_, static_cast<float>(value), order_);
-    case ScalarType::float64:
-      return append_bytes(out_, value, order_);
-  }
+  append_scalar_text(out_, value, type);
+  out_ += ' ';
 }
 
 void PlyWriter::put_row(const Column& column, std::size_t row) {

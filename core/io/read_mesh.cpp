@@ -80,6 +80,13 @@ MeshFile read_format(FileFormat format, std::string_view bytes, const std::strin
       return read_ply(bytes, name);
     case FileFormat::stl:
       return read_stl(bytes, name);
+    case FileFormat::msh:
+      return read_msh(bytes, name);
+    case FileFormat::vtk:
+      return read_vtk(bytes, name);
+    case FileFormat::vtp:
+    case FileFormat::vtu:
+      return read_vtk_xml(bytes, name);
   }
   throw InputError(name, "", "unknown format");
 }
@@ -106,7 +113,7 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   const bool differs = format && by_extension && *format != *by_extension;
   format = format ? format : by_extension;
   if (!format) {
-    throw InputError(name, "", "unknown format: OFF, OBJ, PLY and STL are read");
+    throw InputError(name, "", "unknown format: none of " + format_names());
   }
   MeshFile file = read_format(*format, bytes, name);
   if (differs) {

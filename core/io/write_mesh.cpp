@@ -16,24 +16,63 @@ EncodedMesh encode(const TriangleMesh& mesh, FileFormat format, FileEncoding enc
       return encode_ply(mesh, encoding);
     case FileFormat::stl:
       return encode_stl(mesh, encoding);
+    case FileFormat::msh:
+      return encode_msh(mesh, encoding);
+    case FileFormat::vtk:
+      return encode_vtk(mesh, encoding);
+    case FileFormat::vtp:
+      return encode_vtp(mesh, encoding);
+    case FileFormat::vtu:
+      return encode_vtu(mesh, encoding);
   }
   throw UsageError("unknown format");
 }
 
+FileEncoding usual_encoding(FileFormat format) {
+  switch (format) {
+    case FileFormat::off:
+    case FileFormat::obj:
+    case FileFormat::msh:
+      return FileEncoding::text;
+    case FileFormat::vtk:
+      return FileEncoding::binary_big_endian;
+    default:
+      return FileEncoding::binary_little_endian;
+  }
+}
+
 }  // namespace
+
+bool is_written_as(FileFormat format, FileEncoding encoding) {
+  return encoding == FileEncoding::text || encoding == usual_encoding(format) || format == FileFormat::ply ||
+         (format == FileFormat::msh && encoding == FileEncoding::binary_little_endian);
+}
+
+WriteOptions write_like(const MeshFile& input, const std::filesystem::path& path) {
+  WriteOptions options;
+  if (format_of_extension(path) != input.format) {
+    return options;
+  }
+  for (const FileEncoding encoding :
+       {input.encoding, FileEncoding::binary_little_endian, FileEncoding::binary_big_endian}) {
+    if (is_written_as(input.format, encoding)) {
+      options.encoding = encoding;
+      break;
+    }
+  }
+  return options;
+}
 
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                                     const WriteOptions& options) {
   const std::optional<FileFormat> format = options.format ? options.format : format_of_extension(path);
   if (!format) {
     throw UsageError(one_line(path.string()) +
-                     ": the extension names no format that is written: .off, .obj, .ply or .stl");
+                     ": the extension names no format that is written: " + format_names());
   }
-  const bool text_only = *format == FileFormat::off || *format == FileFormat::obj;
-  const FileEncoding encoding =
-      options.encoding.value_or(text_only ? FileEncoding::text : FileEncoding::binary_little_endian);
-  if (text_only && encoding != FileEncoding::text) {
-    throw UsageError(std::string(format_name(*format)) + " has no binary form here");
+  const FileEncoding encoding = options.encoding.value_or(usual_encoding(*format));
+  if (!is_written_as(*format, encoding)) {
+    throw UsageError(std::string(format_name(*format)) + " is not written in this encoding");
   }
   try {
     EncodedMesh file = encode(mesh, *format, encoding);

@@ -44,6 +44,10 @@ inline bool same_attributes(const MeshAttributes& a, const MeshAttributes& b) {
   const auto same = [](const Attribute& s, const Attribute& t) {
     return s.name == t.name && s.width == t.width && same_numbers(s.values, t.values);
   };
+  const auto same_lower = [&](const LowerElements& s, const LowerElements& t) {
+    return s.vertices == t.vertices &&
+           std::equal(s.values.begin(), s.values.end(), t.values.begin(), t.values.end(), same);
+  };
   const auto same_corner = [](const CornerAttribute& s, const CornerAttribute& t) {
     return s.name == t.name && s.width == t.width && same_numbers(s.values, t.values) &&
            s.indices == t.indices;
@@ -64,7 +68,8 @@ inline bool same_attributes(const MeshAttributes& a, const MeshAttributes& b) {
          std::equal(a.corner.begin(), a.corner.end(), b.corner.begin(), b.corner.end(), same_corner) &&
          std::equal(a.face_labels.begin(), a.face_labels.end(), b.face_labels.begin(), b.face_labels.end(),
                     same_labels) &&
-         a.comments == b.comments && a.header_lines == b.header_lines;
+         same_lower(a.points, b.points) && same_lower(a.lines, b.lines) && a.comments == b.comments &&
+         a.header_lines == b.header_lines;
 }
 
 }  // namespace isorelax

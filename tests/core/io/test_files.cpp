@@ -65,7 +65,8 @@ TEST_F(Files, WhatIsNoReadableMeshFileIsRefusedWithTheReason) {
   EXPECT_EQ(refusal(path("nothing.off")), "cannot be read: No such file or directory");
   EXPECT_EQ(refusal(folder_), "cannot be read: Is a directory");
   EXPECT_EQ(refusal(put("empty.ply", "")), "the file is empty");
-  EXPECT_EQ(refusal(put("mesh.txt", "hello\n")), "unknown format: OFF, OBJ, PLY and STL are read");
+  EXPECT_EQ(refusal(put("mesh.txt", "hello\n")),
+            "unknown format: none of OFF, OBJ, PLY, STL, MSH, VTK, VTP or VTU");
   EXPECT_EQ(refusal(put("mesh.off", "hello\n")), "line 1: expected OFF, found 'hello'");
   EXPECT_EQ(refusal(put("mesh.obj", "hello\n")), "holds no vertices");
   EXPECT_EQ(refusal("/dev/zero"), "is not a regular file");

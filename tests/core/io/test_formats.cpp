@@ -295,7 +295,11 @@ TEST(Sniffing, TheContentDecidesNotTheName) {
   EXPECT_EQ(format_of_content("solid a\nfacet normal\n"), FileFormat::stl);
   EXPECT_EQ(format_of_content(binary_stl({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, 0, "solid trick")), FileFormat::stl);
   EXPECT_EQ(format_of_content("\x89PNG\r\n\x1a\n"), std::nullopt);
-  EXPECT_EQ(format_of_content("# vtk DataFile Version 3.0\nvtk output\n"), std::nullopt);
+  EXPECT_EQ(format_of_content("# vtk DataFile Version 3.0\nvtk output\n"), FileFormat::vtk);
+  EXPECT_EQ(format_of_content("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"), FileFormat::vtp);
+  EXPECT_EQ(format_of_content("<VTKFile type='UnstructuredGrid'>"), FileFormat::vtu);
+  EXPECT_EQ(format_of_content("<html><VTKFile"), FileFormat::vtu) << "its reader says what it is";
+  EXPECT_EQ(format_of_content("$MeshFormat\n4.1 0 8\n"), FileFormat::msh);
   EXPECT_EQ(format_of_content("hello world\n"), std::nullopt);
 }
 
