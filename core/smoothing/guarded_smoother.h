@@ -37,6 +37,8 @@ class GuardedSmoother : public Smoother {
   [[nodiscard]] bool continues() const { return continues_; }
   /// Rounds that the step before took against a rising energy.
   [[nodiscard]] unsigned last_energy_rounds() const { return last_energy_rounds_; }
+  /// Vertices that it kept from folding something.
+  [[nodiscard]] std::size_t last_folded() const { return last_folded_; }
 
   /// Sets the proposed move of a vertex: none, and a note in the record, where it is not worth making.
   void set_move(StepRecord& record, Index vertex, const Vec3& move) const;
@@ -58,6 +60,7 @@ class GuardedSmoother : public Smoother {
   StepGuard guard_;
   bool continues_ = false;
   unsigned last_energy_rounds_ = 0;
+  std::size_t last_folded_ = 0;
   Objective here_, there_;  // at the step's positions, and at the last trial
   Trial trial_;
   FoldControl fold_;

@@ -13,6 +13,11 @@ constexpr double kUseless = 0.02;
 /// Share of its proposed move that a vertex must have made, relative to the vertex that made most of its own,
 /// to be moved together with all others again.
 constexpr double kBlockedShare = 0.3;
+/// Where more than this share of the vertices would have folded something, the direction for all is far too
+/// long: the next ones reach so much less far, until they lead on again.
+constexpr double kManyFolds = 0.3;
+constexpr double kShorter = 0.25;
+constexpr double kLonger = 2;
 /// Rounds against a rising energy after which what is remembered does not fit, either.
 constexpr unsigned kMostEnergyRounds = 2;
 /// Steps after which the second level of the preconditioner is made anew, and the Newton blocks too where no
@@ -54,6 +59,7 @@ class LbfgsSmoother : public GuardedSmoother {
     }
     if (steps_++ % kPreconditionerSteps == 0) coarse_->refresh(here, blocks_);
     find_blocked(positions);
+    find_reach();
     memory_.arrive(positions, tangent_, wanted_, kUseless * proposed_);
     if (continues() && last_energy_rounds() > kMostEnergyRounds) memory_.clear();
     find_direction(record);
@@ -84,13 +90,22 @@ class LbfgsSmoother : public GuardedSmoother {
     }
   }
 
+  void find_reach() {
+    if (!continues()) reach_ = 1;
+    if (!is_joint_ || proposal_.empty()) return;
+    const bool too_far = static_cast<double>(last_folded()) > kManyFolds * problem_.vertex_count();
+    reach_ = too_far ? kShorter * reach_ : std::min(1.0, kLonger * reach_);
+  }
+
   void find_direction(StepRecord& record) {
     // A memory that was cleared on the way had gone wrong: one step in which every vertex sees only its own.
     CoarseCorrection* coarse = memory_.empty() && steps_ > 1 ? nullptr : &*coarse_;
+    is_joint_ = coarse != nullptr;
     if (!(memory_.direction(wanted_, blocks_, coarse, record.displacement) < 0)) {
       // The remembered curvature pointed uphill: the preconditioned gradient never does.
       memory_.clear();
       memory_.direction(wanted_, blocks_, nullptr, record.displacement);
+      is_joint_ = false;
     }
   }
 
@@ -98,7 +113,7 @@ class LbfgsSmoother : public GuardedSmoother {
     // The preconditioner alone overshoots where neighbours move at once.
     const double alone = NewtonOptions{}.relaxation;
     for (const Index v : blocked_) record.displacement[v] = -alone * blocks_[v].solve(tangent_[v]);
-    const double factor = memory_.empty() ? alone : 1;
+    const double factor = (memory_.empty() ? alone : 1) * (is_joint_ ? reach_ : 1);
     parallel_for_blocks(problem_.vertex_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
       double squares = 0;
       for (std::size_t v = begin; v < end; ++v) {
@@ -123,7 +138,9 @@ class LbfgsSmoother : public GuardedSmoother {
   std::vector<Index> blocked_;
   std::vector<NewtonBlock> blocks_;
   std::vector<double> squares_;
-  double proposed_ = 0;  // length of the last step as proposed
+  double proposed_ = 0;    // length of the last step as proposed
+  bool is_joint_ = false;  // whether vertices were sent together: by what is remembered, or the second level
+  double reach_ = 1;       // share of such a direction that is tried
 };
 
 }  // namespace

@@ -145,6 +145,25 @@ TEST(Solvers, AHighExponentLowersTheLargestAngle) {
   EXPECT_LT(measure_quality(high).max_angle_deg, measure_quality(low).max_angle_deg - 3);
 }
 
+TEST(Solvers, ADirectionForAllThatIsFarTooLongIsTriedShorter) {
+  // Areas that have to double over half of a mesh: L-BFGS sends most vertices where they would fold, and took
+  // what was left of that for convergence, far above where Newton steps were still going down.
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 1, .triangles = 4000});
+  std::vector<double> lengths;
+  for (const Vec3& x : mesh.positions) lengths.push_back(x.x() < 0.5 ? 1 : 2);
+  const ProblemOptions options{.weights = EnergyWeights::from_mu(0.9),
+                               .exponent = 2,
+                               .reference = SizeFieldReference{lengths},
+                               .boundary = BoundaryRule::slide};
+  const auto energy_after = [&](Solver solver, unsigned iterations) {
+    TriangleMesh copy = mesh;
+    return smooth(copy, solver, options, {.iterations = iterations}).after.energy;
+  };
+  const double newton = energy_after(Solver::newton, 100);
+  EXPECT_LT(energy_after(Solver::lbfgs, 300), newton);
+  EXPECT_LT(energy_after(Solver::automatic, 300), newton);
+}
+
 TEST(Solvers, AreTheSameForAnyNumberOfThreads) {
   for (const Solver solver : kConverging) {
     const TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 4, .vertices = 3000});
