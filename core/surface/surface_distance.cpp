@@ -18,7 +18,7 @@ constexpr double kTolerance = 1e-3;
 /// An edge is divided that often at most, one part in another, and not too near to an end.
 constexpr unsigned kDivisions = 12;
 constexpr double kLeastPart = 0.05;
-/// Triangles that are searched all over, halvings of their parts, one in another, and samples for each.
+/// Triangles that are searched all over first, halvings of their parts, one in another, and samples for each.
 constexpr std::size_t kSearched = 64;
 constexpr unsigned kHalvings = 40;
 constexpr unsigned kSamples = 2000;
@@ -45,7 +45,9 @@ class Measurement {
     note_largest();
     sample_under(other_way.vertex_);
     divide_edges();
-    search_triangles();
+    search_farthest();
+    note_largest();
+    search_others();
     note_largest();
     return std::move(result_);
   }
@@ -180,7 +182,8 @@ class Measurement {
     divide(between, b, divisions - 1, peak);
   }
 
-  void search_triangles() {
+  /// The triangles that are farthest as far as is known: each for the point of it that is.
+  void search_farthest() {
     std::vector<Index> order(triangles_.size());
     std::iota(order.begin(), order.end(), Index{0});
     const std::size_t count = std::min(kSearched, order.size());
@@ -188,17 +191,27 @@ class Measurement {
       const double x = result_.by_triangle[a].distance, y = result_.by_triangle[b].distance;
       return x != y ? x > y : a < b;
     });
-    for (std::size_t i = 0; i < count; ++i) search(order[i]);
+    for (std::size_t i = 0; i < count; ++i) search(order[i], 0);
   }
 
-  /// Halves parts of a triangle until none can be farther than what was found on it.
-  void search(Index t) {
+  /// All others that may hold a point that is farther than any.
+  void search_others() {
+    parallel_for_blocks(triangles_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) search(static_cast<Index>(t), result_.farthest.distance);
+    });
+  }
+
+  /// Halves parts of a triangle until none can be farther than what was found on it, or than `known`.
+  void search(Index t, double known) {
     const auto& [a, b, c] = triangles_[t];
-    std::vector<Part> parts = {{{vertex_[a], vertex_[b], vertex_[c]}, INFINITY, 0}};
+    const std::array<FarPoint, 3> corners{vertex_[a], vertex_[b], vertex_[c]};
+    std::vector<Part> parts = {{corners, bound_of(corners), 0}};
     for (unsigned samples = 0; !parts.empty() && samples < kSamples;) {
       const Part part = parts.back();
       parts.pop_back();
-      if (part.bound <= more_than(result_.by_triangle[t].distance) || part.halvings == kHalvings) continue;
+      if (part.bound <= more_than(std::max(known, result_.by_triangle[t].distance)) ||
+          part.halvings == kHalvings)
+        continue;
       const unsigned apex = opposite_to_longest_side(part);
       const Vec3 between = 0.5 * (part.corners[next(apex)].point + part.corners[previous(apex)].point);
       const FarPoint middle = sample(between, part.corners[apex].nearest);

@@ -42,8 +42,9 @@ struct OneWayDistance {
 /// distance is looked for where it can be if the surfaces lie over each other: at the vertices of both and
 /// along all edges, where two triangles' distances bound all between (each is convex), so that edges are
 /// divided until no part of theirs can be farther by more than a thousandth. The 64 triangles with the
-/// largest distances are then searched all over, halved until the same is true of them. How often both are
-/// divided is bounded: where surfaces are far from lying over each other, less may be found. Never above the
+/// largest distances are then searched all over, halved until the same is true of them; all others are for
+/// what is farther still. How often both are divided is bounded: where surfaces are far from lying over each
+/// other, less may be found. Never above the
 /// true distance. The same for any number of threads.
 [[nodiscard]] std::array<OneWayDistance, 2> measure_both_ways(const IndexedSurface& a,
                                                               const IndexedSurface& b, unsigned threads);

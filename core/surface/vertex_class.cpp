@@ -7,6 +7,7 @@
 #include "mesh/angle.h"
 #include "mesh/parallel.h"
 #include "surface/crease_graph.h"
+#include "surface/flat_patches.h"
 
 namespace isorelax {
 namespace {
@@ -74,6 +75,7 @@ class Classifier {
     r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
     for (const FeatureEdge& e : r_.creases)
       is_crease_[e.corner] = is_crease_[topology_.opposite(e.corner)] = 1;
+    if (!r_.creases.empty()) flat_ = flat_patches(topology_, turns_, r_.creases);
   }
 
   /// Second pass: needs the creases.
@@ -112,6 +114,23 @@ class Classifier {
     });
   }
 
+  /// The flat faces on both sides of an edge, in no order.
+  [[nodiscard]] std::array<Index, 2> flat_faces(Index v, Index w) const {
+    std::array<Index, 2> found{kNone, kNone};
+    unsigned sides = 0;
+    for (const Corner c : topology_.corners_of(v)) {
+      const Triangle& t = triangles_[c / 3];
+      if ((t[0] == w || t[1] == w || t[2] == w) && sides < 2) found[sides++] = flat_[c / 3];
+    }
+    return {std::min(found[0], found[1]), std::max(found[0], found[1])};
+  }
+
+  /// Whether a crease leaves a flat face here, or comes to one: vertices that slide on would take the face's
+  /// rim along.
+  [[nodiscard]] bool leaves_a_flat_face(Index v, const std::vector<Index>& ends) const {
+    return flat_faces(v, ends[0]) != flat_faces(v, ends[1]);
+  }
+
   void classify_interior(Index v) {
     const std::vector<Index> ends = crease_neighbours(v);
     // Without a crease a peak is a corner; a saddle, whose angles are too many, is none.
@@ -121,6 +140,7 @@ class Classifier {
       r_.turn_deg[v] =
           std::min(turn(v, {ends[0], ends[1]}), turn(v, {beyond(ends[0], v), beyond(ends[1], v)}));
       corner = std::max(corner, r_.turn_deg[v] - options_.turn_deg);
+      if (corner < 0 && leaves_a_flat_face(v, ends)) corner = 0;
     } else if (!ends.empty()) {
       corner = std::max({corner, over_ridge(v), 0.0});
     }
@@ -178,6 +198,7 @@ class Classifier {
   VertexClasses& r_;
   std::span<const double> turns_;        // of the edge opposite to each corner
   std::vector<std::uint8_t> is_crease_;  // likewise
+  std::vector<Index> flat_;              // flat face of each triangle; only where there are creases
 };
 
 }  // namespace
