@@ -1,6 +1,7 @@
 #include "cli/problem_options.h"
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 
 #include "cli/checks.h"
 #include "cli/console.h"
@@ -8,6 +9,7 @@
 #include "cli/vertex_files.h"
 #include "mesh/error.h"
 #include "motion/motion_choices.h"
+#include "smoothing/pins.h"
 
 namespace isorelax::cli {
 namespace {
@@ -64,7 +66,7 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
          "--size-field", spec.size_field,
          "Equilateral triangles of varying size: curvature (smaller where the surface bends more), or a "
          "FILE with a target edge length for each vertex; scaled so that they cover the mesh. Takes "
-         "--mu over 0")
+         "a --mu near 1, as 0.9: the smaller, the more angles win over sizes")
       ->type_name("FIELD")
       ->excludes(reference);
   app.add_option(
@@ -92,6 +94,11 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
                  "vertices:ID,ID,..., or a FILE of vertex numbers from 0; may be repeated")
       ->type_name("WHICH")
       ->allow_extra_args(false);
+  app.add_option("--marks", spec.marks,
+                 "Vertices that the file marks by groups of its elements (MSH): points, lines inside the "
+                 "surface, where two groups meet: hold (default) or free")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"hold", "free"}));
   app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")
       ->type_name("N");
 }
@@ -116,6 +123,21 @@ FeatureOptions parse_features(const std::string& text) {
   return options;
 }
 
+namespace {
+
+std::vector<Index> held_marks(const ProblemSpec& spec, const TriangleMesh& mesh) {
+  if (spec.marks != "hold") return {};
+  return marked_vertices(mesh, Topology(mesh.triangles, mesh.vertex_count()));
+}
+
+}  // namespace
+
+std::string marks_as_pins(const ProblemSpec& spec, const TriangleMesh& mesh) {
+  std::string word;
+  for (const Index v : held_marks(spec, mesh)) word += (word.empty() ? "vertices:" : ",") + std::to_string(v);
+  return word;
+}
+
 ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, const TriangleMesh& mesh) {
   ProblemOptions options;
   options.weights = spec.weights.empty() ? EnergyWeights::from_mu(spec.mu) : parse_weights(spec.weights);
@@ -133,6 +155,12 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, const Tr
   options.untangle = parse_untangle(spec.untangle);
   options.threads = spec.threads;
   options.pinned = parse_pins(console, spec.pins, mesh, options);
+  const std::vector<Index> marks = held_marks(spec, mesh);
+  if (!marks.empty()) {
+    console.message(std::to_string(marks.size()) + (marks.size() == 1 ? " vertex is" : " vertices are") +
+                    " held because the file marks them (--marks free: not)");
+  }
+  options.pinned.insert(options.pinned.end(), marks.begin(), marks.end());
   return options;
 }
 

@@ -25,6 +25,7 @@ struct ProblemSpec {
   std::string surface = "project";
   std::string untangle = "auto";
   std::vector<std::string> pins;
+  std::string marks = "hold";
   std::string size_field;
   unsigned threads = 0;
 };
@@ -33,6 +34,10 @@ struct ProblemSpec {
 /// --features,
 /// --surface, --untangle, --pin and --threads.
 void declare_problem(CLI::App& app, ProblemSpec& spec);
+
+/// The vertices that a mesh's file marks and the options hold, as the words of a --pin; empty where there are
+/// none.
+[[nodiscard]] std::string marks_as_pins(const ProblemSpec& spec, const TriangleMesh& mesh);
 
 /// Reads the typed options for a mesh; files that they name too. Throws UsageError, InputError.
 [[nodiscard]] ProblemOptions parse_problem(Console& console, const ProblemSpec& spec,

@@ -32,7 +32,8 @@ Json outcome_to_json(const SmoothOutcome& outcome) {
   object["stopped_because"] = to_string(outcome.run.stopped);
   object["seconds"] = outcome.run.seconds;
   object["energy_before"] = outcome.run.before.energy;
-  object["energy_after"] = outcome.run.after.energy;
+  const bool polished = outcome.polish && outcome.polish->iterations > 0;
+  object["energy_after"] = (polished ? *outcome.polish : outcome.run).after.energy;
   object["deviation"] = {{"max", outcome.deviation.max},
                          {"rms", outcome.deviation.rms},
                          {"volume_change", outcome.deviation.volume_change},
@@ -50,6 +51,7 @@ Json outcome_to_json(const SmoothOutcome& outcome) {
   object["turned_over"] = outcome.turned_over.size();
   if (outcome.polish) {
     object["polish"] = {{"iterations", outcome.polish->iterations},
+                        {"energy_before", outcome.run.after.energy},
                         {"stopped", name_of(outcome.polish->stopped)},
                         {"seconds", outcome.polish->seconds}};
   }
@@ -90,7 +92,9 @@ class SmoothCommand : public Command {
            "largest move below T mean edges, or the relative decrease of the energy below T five times in a "
            "row; "
            "--tolerance 0\n"
-           "does exactly --iterations steps.\n"
+           "does exactly --iterations steps. A --polish follows with steps of its own, for which angles "
+           "count and\n"
+           "the energy may rise.\n"
            "\n"
            "--method laplacian and angle-based are what others do, to compare with: no energy guides them, "
            "and "
@@ -105,8 +109,8 @@ class SmoothCommand : public Command {
            "  isorelax smooth square.off -o other.off --method angle-based --weighting plain --guard off";
   }
   void declare(CLI::App& app) override {
-    app.add_option("IN", input_, "Mesh to smooth: OFF, OBJ, PLY or STL")->required();
-    app.add_option("-o,--output", output_, "File to write: OFF, OBJ, PLY or STL by its extension")
+    app.add_option("IN", input_, "Mesh to smooth: " + format_names())->required();
+    app.add_option("-o,--output", output_, "File to write: " + format_names() + " by its extension")
         ->required()
         ->type_name("OUT");
     run_.declare(app);
@@ -122,7 +126,7 @@ class SmoothCommand : public Command {
     run_.check();
     watch_.check();
     if (!format_of_extension(output_))
-      throw UsageError(output_ + ": the extension names no format that is written (off, obj, ply, stl)");
+      throw UsageError(output_ + ": the extension names no format that is written: " + format_names());
     MeshFile file = read_input_file(console, input_);
     TriangleMesh& mesh = file.mesh;
     // Before the long work, not after it.
@@ -184,7 +188,7 @@ class SmoothCommand : public Command {
     Trace about;
     about.program = "isorelax " ISORELAX_VERSION;
     about.input = input_;
-    about.arguments = run_.words();
+    about.arguments = run_.words(mesh);
     about.resources = run_.resources();
     TraceRecorder recorder(std::move(about), mesh);
     SmoothOutcome outcome = run_.smooth(

@@ -42,13 +42,15 @@ void SmoothRun::declare(CLI::App& app) {
   const std::vector<CLI::Option*> others = app.get_options();
   declare_method(app, method_);
   declare_problem(app, problem_);
-  app.add_option("--iterations", run_.iterations, "Largest number of steps (default 1000)")->type_name("N");
+  app.add_option("--iterations", run_.iterations, "Largest number of steps before a polish (default 1000)")
+      ->type_name("N");
   app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
       ->type_name("T")
       ->check(number_between(0, std::numeric_limits<double>::max()));
   app.add_option(
          "--polish", polish_,
-         "A last stage. worst: raises the smallest angles themselves, the worst first; mean: raises the mean "
+         "A last stage. worst: raises the smallest angles that can move, the worst first; mean: raises the "
+         "mean "
          "of the triangles' smallest angles, and the worst tenth stay as good as they are; both: worst, then "
          "mean; "
          "none (default)")
@@ -104,8 +106,11 @@ DeviationLimit SmoothRun::limit() const {
   return {.max = limit, .automatic = {}};
 }
 
-std::vector<std::string> SmoothRun::words() const {
-  return words_of(options_);
+std::vector<std::string> SmoothRun::words(const TriangleMesh& mesh) const {
+  std::vector<std::string> words = words_of(options_);
+  if (std::string marks = marks_as_pins(problem_, mesh); !marks.empty())
+    words.insert(words.end(), {"--pin", std::move(marks)});
+  return words;
 }
 
 std::vector<TraceResource> SmoothRun::resources() const {

@@ -35,8 +35,8 @@ class SmoothRun {
   void declare(CLI::App& app);
   /// Throws UsageError for typed options that make no sense together.
   void check() const;
-  /// The typed options as words, for a trace.
-  [[nodiscard]] std::vector<std::string> words() const;
+  /// The typed options as words, for a trace of this mesh: what its file marks stands there as pins.
+  [[nodiscard]] std::vector<std::string> words(const TriangleMesh& mesh) const;
   /// Files that the typed options name, with their hashes now. Throws InputError.
   [[nodiscard]] std::vector<TraceResource> resources() const;
   void set_threads(unsigned threads) { problem_.threads = threads; }

@@ -170,6 +170,8 @@ const std::map<std::string, Reader>& readers() {
                             s.polish);
        }},
       {"--max-deviation", read_reach},
+      // Those that are held stand among the pins.
+      {"--marks", [](const std::string&, S&) { return true; }},
       // Results do not depend on it.
       {"--threads", [](const std::string&, S&) { return true; }}};
   return kReaders;

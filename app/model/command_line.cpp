@@ -3,6 +3,7 @@
 
 #include "model/arguments.h"
 #include "model/command.h"
+#include "smoothing/pins.h"
 
 namespace isorelax::model {
 namespace {
@@ -40,6 +41,8 @@ std::string command_line(const Session& session) {
   std::string line =
       "isorelax smooth " + quoted(session.document->path.string()) + " -o " + quoted(output.string());
   for (const std::string& word : to_words(session.smoothing)) line += " " + quoted(word);
+  // The pins say which of those are held.
+  if (!marked_vertices(session.document->mesh(), session.document->topology).empty()) line += " --marks free";
   return line;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/topology.h"
+#include "mesh/triangle_mesh.h"
 #include "surface/vertex_class.h"
 
 namespace isorelax {
@@ -18,6 +19,12 @@ namespace isorelax {
                                                   std::span<const Triangle> triangles,
                                                   const Topology& topology, const FeatureOptions& options,
                                                   unsigned threads = 0);
+
+/// What a file marks by the groups of its elements (attributes "gmsh:physical" and "gmsh:geometrical"): its
+/// points, vertices on its lines inside the surface, those on the border where lines of two groups meet, and
+/// those between triangles of two groups. Moved, they would change what the groups cover. None where elements
+/// have no groups.
+[[nodiscard]] std::vector<Index> marked_vertices(const TriangleMesh& mesh, const Topology& topology);
 
 /// An axis-parallel box, faces included; infinite bounds are none.
 struct Box {

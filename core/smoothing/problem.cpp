@@ -49,6 +49,7 @@ class ProblemBuilder {
     for (Index v = 0; v < p_.vertex_count(); ++v) apply_class(v);
     pin_flaws();
     pin_choice();
+    note_if_nothing_may_move();
     measure_edges();
     limit_worst_angles();
     freeze_surface();
@@ -190,6 +191,22 @@ class ProblemBuilder {
       }
       pin(v);
     }
+  }
+
+  void note_if_nothing_may_move() {
+    if (std::ranges::any_of(p_.mobility, [](Mobility m) { return m != Mobility::none; })) return;
+    const auto held = [&](std::uint16_t limit) {
+      return std::ranges::count_if(p_.fixed_limits, [&](std::uint16_t all) { return (all & limit) != 0; });
+    };
+    std::string text;
+    const auto name = [&](std::uint16_t limit, const char* one, const char* many) {
+      const auto count = static_cast<std::size_t>(held(limit));
+      if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, many);
+    };
+    name(kLimitCorner, "is a corner", "are corners");
+    name(kLimitBoundary, "is on the border", "are on the border");
+    name(kLimitPinned, "is pinned", "are pinned");
+    p_.notes.push_back("no vertex may move: " + text);
   }
 
   void freeze_surface() {
@@ -335,7 +352,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                      std::holds_alternative<CurvatureReference>(options.reference);
   if (field && options.weights.area == 0) {
     problem.notes.emplace_back(
-        "the size field has no effect: areas have no weight (--mu 0 is the default; try --mu 0.5)");
+        "the size field has no effect: areas have no weight (--mu 0 is the default; try --mu 0.9)");
   }
   for (const Index t : problem.reference.replaced()) {
     problem.notes.push_back("triangle " + std::to_string(t) +

@@ -172,5 +172,29 @@ TEST(Borders, MeshesOfExtremeSizeAreSmoothedAlike) {
   }
 }
 
+TEST(Borders, WhatAFileMarksIsFoundByItsGroups) {
+  // A square of four columns: 0 1 2 / 3 4 5 / 6 7 8, two triangles to a cell.
+  TriangleMesh mesh;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) mesh.positions.emplace_back(x, y, 0);
+  mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}, {4, 5, 8}, {4, 8, 7}};
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  const auto marked = [&] { return marked_vertices(mesh, topology); };
+  MeshAttributes& attributes = mesh.attributes;
+  attributes.lines.vertices = {0, 1, 1, 2, 1, 4};
+  EXPECT_TRUE(marked().empty()) << "lines without groups say nothing";
+  attributes.lines.values = {{"gmsh:physical", ScalarType::int32, 1, {5, 5, 5}}};
+  EXPECT_EQ(marked(), (std::vector<Index>{4})) << "the only one inside";
+  attributes.lines.values[0].values = {5, 6, 5};
+  EXPECT_EQ(marked(), (std::vector<Index>{1, 4})) << "two groups meet on the border";
+  attributes.lines = {2, {}, {}};
+  attributes.points.vertices = {8};
+  attributes.points.values = {{"gmsh:geometrical", ScalarType::int32, 1, {3}}};
+  EXPECT_EQ(marked(), (std::vector<Index>{8}));
+  attributes.points = {1, {}, {}};
+  attributes.face = {{"gmsh:physical", ScalarType::int32, 1, {1, 1, 2, 2, 1, 1, 2, 2}}};
+  EXPECT_EQ(marked(), (std::vector<Index>{1, 4, 7})) << "between triangles of two groups";
+}
+
 }  // namespace
 }  // namespace isorelax
