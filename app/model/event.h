@@ -74,6 +74,8 @@ struct Iterated {
 struct RunEnded {
   RunResult result;
   std::string broken_by;  ///< the predicate that ended it; empty: none
+  /// What holds the vertices where none may move: as of a step in which none does.
+  std::optional<StepSummary> held = {};
 };
 /// How far a run has taken the surface from the mesh as opened.
 struct SurfaceMeasured {

@@ -1,4 +1,5 @@
 #include "model/executor.h"
+#include "smoothing/pins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,12 @@ void Executor::operator()(Loaded& event) {
   s_.remaining = 0;
   clear_selection();
   forget_runs();
+  s_.smoothing.pinned = marked_vertices(s_.document->mesh(), s_.document->topology);
   s_.notes = std::move(event.notes);
+  if (const std::size_t marked = s_.smoothing.pinned.size(); marked > 0) {
+    s_.notes.push_back(std::to_string(marked) + (marked == 1 ? " vertex is" : " vertices are") +
+                       " pinned because the file marks them: X unpins the selected one");
+  }
   s_.series = 0;
   show(event.state);
   if (s_.current->energy) {
@@ -262,6 +268,7 @@ void Executor::operator()(RunFailed& event) {
 
 void Executor::operator()(Saved& event) {
   s_.saved = event.state;
+  s_.kept_steps_ = s_.timeline.made_steps();
   s_.save_path = event.path;
   s_.activity = Activity::idle;
   say(MessageKind::info, "Saved " + event.path.string());

@@ -109,6 +109,7 @@ class Executor {
   void measure_surface();
   void show(const MeshStatePtr& state);
   void apply(const UndoEntry& entry, bool forward);
+  bool show_beside_again();
   void remember_recent(const std::filesystem::path& path);
 
   Session& s_;

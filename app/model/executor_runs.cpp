@@ -170,13 +170,17 @@ bool Executor::run_over_recorded(unsigned iterations) {
     else
       s_.after_scan_ = [result = ended ? branch.result : std::nullopt, kind = branch.kind](Session& s) {
         s.last_run = result;
+        s.last_run_number = s.message_count_;
         Executor(s).polish_when_idle(kind);
       };
     s_.scan_to_ = to;
     return true;
   }
   seek(at, to);
-  if (ended) s_.last_run = branch.result;
+  if (ended) {
+    s_.last_run = branch.result;
+    s_.last_run_number = s_.message_count_;
+  }
   if (goes_on)
     s_.when_idle_.push_back(go_on);
   else
@@ -253,7 +257,9 @@ void Executor::operator()(RunEnded& event) {
                      ? s_.run_iterations_ - event.result.iterations
                      : 0;
   s_.last_run = event.result;
+  s_.last_run_number = s_.message_count_;
   s_.broken_by = event.broken_by;
+  if (event.held) s_.last_step = event.held;
   if (!s_.timeline.empty()) {
     Branch& branch = s_.timeline.branches[s_.timeline.cursor.branch];
     branch.result = event.result;

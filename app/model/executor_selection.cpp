@@ -7,6 +7,10 @@
 
 namespace isorelax::model {
 
+std::size_t Session::rank_of_worst() const {
+  return current && worst_rank_of_ == current->geometry ? worst_rank_ : 0;
+}
+
 std::span<const double> Executor::worst_values() {
   const auto by = [&](Coloring coloring) { return s_.current->values(coloring); };
   FaceMetric metric = FaceMetric::shape;
@@ -63,16 +67,17 @@ void Executor::operator()(const SelectNextWorst& /*command*/) {
   using Key = std::pair<double, Index>;
   const auto key = [&](Index t) { return Key{sign * values[t], t}; };
   // A triangle that was chosen otherwise is no place to go on from.
-  const std::optional<Index> last = s_.worst_rank > 0 ? s_.selected_triangle : std::nullopt;
+  const std::optional<Index> last = s_.rank_of_worst() > 0 ? s_.selected_triangle : std::nullopt;
   std::optional<Key> best;
   for (Index t = 0; t < values.size(); ++t) {
     if (last && key(t) <= key(*last)) continue;
     if (s_.worst_by == WorstBy::inverted && values[t] == 0) continue;
     if (!best || key(t) < *best) best = key(t);
   }
-  const std::size_t rank = best ? s_.worst_rank + 1 : 0;
+  const std::size_t rank = best ? s_.rank_of_worst() + 1 : 0;
   clear_selection();
-  s_.worst_rank = rank;
+  s_.worst_rank_ = rank;
+  s_.worst_rank_of_ = s_.current->geometry;
   if (best) s_.selected_triangle = best->second;
   if (!best && s_.worst_by == WorstBy::inverted)
     say(MessageKind::info, "No other triangle lies upside down.");
@@ -118,7 +123,7 @@ void Executor::operator()(const SelectTriangle& command) {
 void Executor::clear_selection() {
   s_.selected_triangle.reset();
   s_.selected_vertex.reset();
-  s_.worst_rank = 0;
+  s_.worst_rank_ = 0;
   s_.inspection.vertex.reset();
   s_.inspection.triangle.reset();
   s_.inspection.path.reset();
@@ -132,7 +137,7 @@ void Executor::operator()(const SelectLimited& command) {
 
 void Executor::operator()(const SetWorstBy& command) {
   s_.worst_by = command.by;
-  s_.worst_rank = 0;
+  s_.worst_rank_ = 0;
 }
 
 void Executor::operator()(const TogglePin& command) {

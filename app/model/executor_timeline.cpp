@@ -18,6 +18,10 @@ MeshStatePtr with_geometry(const MeshStatePtr& state, std::shared_ptr<const Geom
 
 }  // namespace
 
+bool Session::would_lose_work() const {
+  return has_unsaved_changes() || timeline.made_steps() != kept_steps_;
+}
+
 bool Session::continues_branch() const {
   const Branch* branch = timeline.current();
   if (branch == nullptr || branch->motion.has_value() != (task == Task::move)) return false;
@@ -235,6 +239,7 @@ void Executor::operator()(const ShowBranches& command) {
 
 void Executor::forget_runs() {
   s_.timeline = {};
+  s_.kept_steps_ = 0;
   s_.inspection = {};
   s_.hits.clear();
   s_.step_memory = {};

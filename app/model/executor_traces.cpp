@@ -41,6 +41,7 @@ void Executor::operator()(const SaveTrace& command) {
 }
 
 void Executor::operator()(Wrote& event) {
+  s_.kept_steps_ = s_.timeline.made_steps();
   say(MessageKind::info, "Saved " + event.path.string());
 }
 
@@ -91,8 +92,8 @@ void Executor::operator()(TraceOpened& event) {
     say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
   }
   if (!event.unknown_words.empty())
-    say(MessageKind::info, "The editor has no setting for " + listed(event.unknown_words) +
-                               ": branches that leave the run are made without.");
+    say(MessageKind::warning, "The editor has no setting for " + listed(event.unknown_words) +
+                                  ": branches that leave the run are made without.");
 }
 
 }  // namespace isorelax::model

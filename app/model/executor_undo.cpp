@@ -29,6 +29,7 @@ void Executor::operator()(const Reset& command) {
   s_.last_run.reset();
   s_.remaining = 0;
   // Its triangles are measured otherwise than those of the mesh as opened.
+  if (show_beside_again()) return;
   if (s_.moving() != nullptr)
     seek(start.branch, 0);
   else
@@ -72,8 +73,17 @@ void Executor::apply(const UndoEntry& entry, bool forward) {
   }
   s_.remaining = 0;
   measure_energy_if_changed();
-  ask_about_step();
+  if (!show_beside_again()) ask_about_step();
   say(MessageKind::info, (forward ? "Redone: " : "Undone: ") + entry.label);
+}
+
+// Runs beside follow to the iteration that is shown now, and the shown one does not stand beside itself.
+bool Executor::show_beside_again() {
+  std::erase(s_.shown_branches, s_.timeline.cursor.branch);
+  s_.other_states.clear();
+  if (s_.shown_branches.empty()) return false;
+  seek(s_.timeline.cursor.branch, s_.timeline.cursor.iteration);
+  return true;
 }
 
 }  // namespace isorelax::model

@@ -134,7 +134,15 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
   reporter.finish(positions);
   request.recording->trace().stopped = name_of(result.stopped);
   request.recording->trace().stopped_because = to_string(result.stopped);
-  context.publish(RunEnded{result, reporter.broken_by()});
+  RunEnded ended{result, reporter.broken_by()};
+  if (result.stopped == StopReason::fixed) {
+    ended.held = StepSummary{.iteration = request.start->iteration,
+                             .before = result.before,
+                             .after = result.after,
+                             .limits = count_limits(problem->fixed_limits),
+                             .vertices = positions.size()};
+  }
+  context.publish(std::move(ended));
 }
 
 }  // namespace
@@ -256,7 +264,7 @@ Engine::Job save_job(DocumentPtr document, MeshStatePtr state, std::filesystem::
     context.progress("Saving " + path.filename().string(), -1);
     TriangleMesh mesh = document->mesh();
     mesh.positions.assign(state->positions().begin(), state->positions().end());
-    auto notes = write_mesh(path, mesh);
+    auto notes = write_mesh(path, mesh, write_like(document->file, path));
     context.publish(Saved{path, state, std::move(notes)});
   };
 }

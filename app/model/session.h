@@ -85,6 +85,7 @@ struct Session {
   std::vector<IterationRow> history;
   std::optional<StepSummary> last_step;  ///< the one that led to what is shown
   std::optional<RunResult> last_run;
+  std::uint64_t last_run_number = 0;       ///< of the newest message when it ended: later ones are news
   std::optional<SurfaceMeasured> surface;  ///< at the end of the last run
   std::string broken_by;                   ///< the breakpoint that ended the last run; empty: none
   /// Iterations that a paused run still has to do; 0 when Run starts a new one.
@@ -101,7 +102,6 @@ struct Session {
   std::optional<Index> selected_vertex;
   std::optional<unsigned> selected_limit;  ///< a bit of Limit
   WorstBy worst_by = WorstBy::coloring;
-  std::size_t worst_rank = 0;                 ///< which of the worst triangles is selected, from 1
   std::vector<std::filesystem::path> recent;  ///< newest first
   std::string command_line;                   ///< what was last asked for with CopyCommandLine
 
@@ -121,6 +121,11 @@ struct Session {
   [[nodiscard]] bool has_unsaved_changes() const {
     return current && saved && current->geometry != saved->geometry;
   }
+  /// Whether that, or what was recorded since a mesh or a trace was saved last, would be lost.
+  [[nodiscard]] bool would_lose_work() const;
+  /// Which of the worst triangles the selected one is, from 1; 0 for none of them, and as soon as the mesh
+  /// is another.
+  [[nodiscard]] std::size_t rank_of_worst() const;
   [[nodiscard]] bool is_running() const { return activity == Activity::running; }
   [[nodiscard]] bool can_smooth() const { return current && activity == Activity::idle; }
   /// Whether another iteration than the one on screen was asked for.
@@ -152,8 +157,11 @@ struct Session {
   std::vector<double> worst_values_;  // of worst_values_of_ by worst_values_by_
   std::shared_ptr<const Geometry> worst_values_of_;
   WorstBy worst_values_by_ = WorstBy::coloring;
+  std::size_t worst_rank_ = 0;
+  std::shared_ptr<const Geometry> worst_rank_of_;
   std::deque<std::function<void(Session&)>> when_idle_;
   std::uint64_t message_count_ = 0;
+  std::size_t kept_steps_ = 0;  // recorded when a mesh or a trace was saved last
 };
 
 }  // namespace isorelax::model

@@ -25,6 +25,12 @@ const StepSummary* Timeline::step(unsigned branch, unsigned iteration) const {
   return &held.steps[iteration - held.start - 1];
 }
 
+std::size_t Timeline::made_steps() const {
+  std::size_t steps = 0;
+  for (const Branch& branch : branches) steps += branch.from_file ? 0 : branch.steps.size();
+  return steps;
+}
+
 std::vector<IterationRow> Timeline::rows(unsigned branch) const {
   std::vector<IterationRow> rows;
   const Branch& own = branches[branch];

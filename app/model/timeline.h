@@ -72,6 +72,8 @@ struct Timeline {
   [[nodiscard]] const Branch* current() const { return empty() ? nullptr : &branches[cursor.branch]; }
   /// The last iteration that the present branch leads to.
   [[nodiscard]] unsigned last() const { return empty() ? 0 : branches[cursor.branch].tip(); }
+  /// Steps that were made here, not read from a trace.
+  [[nodiscard]] std::size_t made_steps() const;
   /// The longest branch.
   [[nodiscard]] unsigned longest() const;
   /// The branch, this one or one that it came from, that holds an iteration. Precondition: iteration <=

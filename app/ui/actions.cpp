@@ -35,7 +35,7 @@ void perform_file_action(const Ui& ui, Action action) {
       ask_for_file(ui, FilePurpose::save_picture);
       break;
     case Action::quit:
-      if (ui.session.has_unsaved_changes()) {
+      if (ui.session.would_lose_work()) {
         ui.state.pending = PendingQuit{};
         ui.state.ask_unsaved = true;
       } else {
@@ -200,7 +200,7 @@ void perform(const Ui& ui, Action action) {
 }
 
 void open_file(const Ui& ui, const std::filesystem::path& path) {
-  if (ui.session.has_unsaved_changes()) {
+  if (ui.session.would_lose_work()) {
     ui.state.pending = path;
     ui.state.ask_unsaved = true;
   } else {
@@ -209,7 +209,7 @@ void open_file(const Ui& ui, const std::filesystem::path& path) {
 }
 
 void open_sphere(const Ui& ui, const SphereStart& sphere) {
-  if (ui.session.has_unsaved_changes()) {
+  if (ui.session.would_lose_work()) {
     ui.state.pending = sphere;
     ui.state.ask_unsaved = true;
   } else {

@@ -29,7 +29,7 @@ void draw_reason(const Ui& ui, unsigned bit, std::size_t count, std::size_t vert
              {.look = chosen ? ButtonLook::pressed : ButtonLook::quiet,
               .width = width,
               .height = ui.px(24),
-              .enabled = count > 0}))
+              .enabled = count > 0 && !ui.session.timeline.empty()}))
     ui.command(model::SelectLimited{chosen ? std::nullopt : std::optional(bit)});
   tooltip(ui, kReasonTips.at(bit), count > 0 ? "Click to mark only these" : "");
   ImDrawList& draw = *ImGui::GetWindowDrawList();

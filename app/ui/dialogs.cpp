@@ -63,6 +63,17 @@ void go_on(const Ui& ui) {
   ui.state.pending = std::monostate{};
 }
 
+// Once a save that was asked for has ended well, and no name is asked for any more.
+void go_on_after_save(const Ui& ui) {
+  const FileBrowser& browser = ui.state.browser;
+  if (!ui.state.go_on_after_save || browser.wanted || browser.open || ui.session.engine.busy()) return;
+  ui.state.go_on_after_save = false;
+  if (ui.session.would_lose_work())
+    ui.state.pending = std::monostate{};
+  else
+    go_on(ui);
+}
+
 }  // namespace
 
 void draw_help(const Ui& ui) {
@@ -96,15 +107,14 @@ void draw_help(const Ui& ui) {
 void draw_unsaved_question(const Ui& ui) {
   if (ui.state.ask_unsaved) ImGui::OpenPopup("unsaved");
   ui.state.ask_unsaved = false;
-  // A save that was asked for here has ended well: go on with what waited for it.
-  if (ui.state.quit_after_save && ui.session.activity == model::Activity::idle) {
-    ui.state.quit_after_save = false;
-    if (!ui.session.has_unsaved_changes()) go_on(ui);
-  }
+  go_on_after_save(ui);
   if (!begin_dialog(ui, "unsaved", ui.px(440))) return;
-  text_in(ui.fonts.title, color::kText, "Keep the changed mesh?");
+  const bool mesh = ui.session.has_unsaved_changes();
+  text_in(ui.fonts.title, color::kText, mesh ? "Keep the changed mesh?" : "Keep what was run?");
   ImGui::PushTextWrapPos(0);
-  text_in(ui.fonts.text, color::kTextDim, "Its positions are in no file yet. Without saving they are lost.");
+  text_in(ui.fonts.text, color::kTextDim,
+          mesh ? "Its positions are in no file yet. Without saving they are lost."
+               : "The iterations are in no file yet: a trace keeps them. Without one they are lost.");
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, ui.px(6)});
   if (button(ui, "unsaved-cancel", "Cancel", {.width = ui.px(98)}) || escape_pressed()) {
@@ -119,9 +129,8 @@ void draw_unsaved_question(const Ui& ui) {
   ImGui::SameLine();
   if (button(ui, "unsaved-save", "Save", {.look = ButtonLook::accent, .width = ui.px(98)})) {
     ImGui::CloseCurrentPopup();
-    ui.state.quit_after_save = ui.session.save_path.has_value();
-    if (!ui.session.save_path) ui.state.pending = std::monostate{};
-    perform(ui, Action::save);
+    ui.state.go_on_after_save = true;
+    perform(ui, mesh ? Action::save : Action::save_trace);
   }
   ImGui::EndPopup();
 }

@@ -35,7 +35,7 @@ bool fits(FilePurpose purpose, const fs::path& path) {
   if (purpose == FilePurpose::save_script) return extension == ".script";
   if (purpose == FilePurpose::field) return extension == ".vtk";
   if (purpose == FilePurpose::open_mesh && extension == ".trace") return true;
-  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
+  return model::has_mesh_extension(path);
 }
 
 // Reads a folder into the browser; when that fails the browser stays where it is and says why.
@@ -180,7 +180,7 @@ void accept(const Ui& ui) {
                     : browser.purpose == FilePurpose::save_script ? "The name of a script ends in .script"
                     : browser.purpose == FilePurpose::save_trace
                         ? "The name of a trace ends in .trace"
-                        : "The name ends in .off, .obj, .ply or .stl";
+                        : "The extension of a mesh is one of " + model::mesh_formats();
   else if (!fs::is_directory(path.parent_path(), error))
     browser.error = path.parent_path().string() + ": there is no such folder";
   else if (exists)
@@ -248,7 +248,7 @@ void draw_entries(const Ui& ui, float height) {
   ImGui::PushStyleColor(ImGuiCol_ChildBg, to_vec4(color::kBackdrop));
   ImGui::BeginChild("entries", {0, height}, false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
-  if (browser.entries.empty()) text_in(ui.fonts.text, color::kTextFaint, "No meshes here.");
+  if (browser.entries.empty()) text_in(ui.fonts.text, color::kTextFaint, "Nothing to open here.");
   int opened = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(browser.entries.size()), ImGui::GetTextLineHeightWithSpacing());
@@ -378,9 +378,10 @@ void draw_file_browser(const Ui& ui) {
   ImGui::SetNextWindowPos({0.5F * display.x, 0.5F * display.y}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(18), ui.px(16)});
-  if (ImGui::BeginPopupModal(kTitle, nullptr,
-                             ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
+  browser.open = ImGui::BeginPopupModal(kTitle, nullptr,
+                                        ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  if (browser.open) {
     text_in(ui.fonts.title, color::kText, title(browser.purpose));
     ImGui::Dummy({0, ui.px(2)});
     draw_folder_line(ui);

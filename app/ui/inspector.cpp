@@ -147,7 +147,7 @@ void draw_triangle(const Ui& ui, Index triangle) {
     return;
   }
   const std::string rank =
-      s.worst_rank > 0 ? "   \xC2\xB7   worst no. " + std::to_string(s.worst_rank) : std::string();
+      s.rank_of_worst() > 0 ? "   \xC2\xB7   worst no. " + std::to_string(s.rank_of_worst()) : std::string();
   draw_step_line(ui, rank);
   wrapped(ui.fonts.text, color::kText, triangle_sentence(*e));
   ImGui::Dummy({0, ui.px(2)});

@@ -14,7 +14,7 @@ std::string range_text(const model::Branch& branch) {
     const double time = branch.moments.empty() ? 0 : branch.moments.back().time;
     return std::to_string(branch.steps.size()) + " steps, to t = " + number_text("%.4g", time);
   }
-  return branch.start == 0 ? std::to_string(branch.tip()) + " iterations"
+  return branch.start == 0 ? std::to_string(branch.tip()) + (branch.tip() == 1 ? " iteration" : " iterations")
                            : "from " + std::to_string(branch.start) + " to " + std::to_string(branch.tip());
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 using model::SmoothingSettings;
 
+/// "...": the segment for other values than the usual ones.
+constexpr std::string_view kOther = "\xE2\x80\xA6";
+
 // A change to the settings goes out as one command that names it.
 void change(const Ui& ui, const SmoothingSettings& settings, std::string label) {
   if (settings != ui.session.smoothing) ui.command(model::SetSmoothing{settings, std::move(label)});
@@ -18,6 +21,41 @@ void change(const Ui& ui, const SmoothingSettings& settings, std::string label) 
 
 void end_edit_after_item(const Ui& ui) {
   if (ImGui::IsItemDeactivated()) ui.command(model::EndEdit{});
+}
+
+/// A number with usual values: a segment for each, and one for any other value, which is typed below.
+struct Presets {
+  std::string_view name, label, tip;
+  std::span<const std::string_view> labels;  ///< one more than values, for the other ones
+  std::span<const double> values;
+  double least, most;
+};
+
+/// Whether another one was chosen.
+bool draw_presets(const Ui& ui, const Presets& presets, double& value, bool& typed) {
+  row_label(ui, presets.label, presets.tip);
+  const auto found = std::ranges::find(presets.values, value);
+  const bool other = typed || found == presets.values.end();
+  const int last = static_cast<int>(presets.values.size());
+  const int shown = other ? last : static_cast<int>(found - presets.values.begin());
+  const int choice = segmented(ui, presets.name, presets.labels, shown, ImGui::GetContentRegionAvail().x);
+  if (choice >= 0) typed = choice == last;
+  if (choice >= 0 && choice < last) {
+    value = presets.values[static_cast<std::size_t>(choice)];
+    return true;
+  }
+  if (!other) return false;
+  row_label(ui, "", presets.tip);
+  double number = value;
+  const std::string name = std::string(presets.name) + "-typed";
+  const bool edited =
+      ImGui::InputDouble(("##" + name).c_str(), &number, 0, 0, "%.6g", ImGuiInputTextFlags_CharsScientific) &&
+      number >= presets.least && number <= presets.most;
+  end_edit_after_item(ui);
+  mark(ui, name);
+  tooltip(ui, presets.tip);
+  if (edited) value = number;
+  return edited;
 }
 
 void draw_solver(const Ui& ui) {
@@ -42,17 +80,19 @@ void draw_solver(const Ui& ui) {
     if (solver < kMinimisers) settings.solver = static_cast<Solver>(solver);
     change(ui, settings, "Solver");
   }
-  constexpr std::array<std::string_view, 5> kLabels{"1", "2", "4", "8", "16"};
+  constexpr std::array<std::string_view, 6> kLabels{"1", "2", "4", "8", "16", kOther};
   constexpr std::array kExponents{1.0, 2.0, 4.0, 8.0, 16.0};
-  row_label(
-      ui, "Exponent",
-      "The power p in the sum of E^p: 1 treats all triangles alike, larger powers favour the worst ones.");
-  const auto found = std::ranges::find(kExponents, settings.exponent);
-  const int exponent = segmented(ui, "exponent", kLabels, static_cast<int>(found - kExponents.begin()),
-                                 ImGui::GetContentRegionAvail().x);
-  if (exponent < 0) return;
-  settings.exponent = kExponents[static_cast<std::size_t>(exponent)];
-  change(ui, settings, "Exponent");
+  const Presets exponents{
+      "exponent",
+      "Exponent",
+      "The power p in the sum of E^p: 1 treats all triangles alike, larger powers favour the worst ones. "
+      "\xE2\x80\xA6: any from 1 to 64.",
+      kLabels,
+      kExponents,
+      1,
+      64};
+  if (draw_presets(ui, exponents, settings.exponent, ui.state.typing.exponent))
+    change(ui, settings, "Exponent");
 }
 
 void draw_mu(const Ui& ui) {
@@ -97,7 +137,7 @@ void draw_reference(const Ui& ui) {
   if (settings.reference == model::ReferenceKind::edge_length) {
     row_label(ui, "Edge length", "Edge length of the reference triangles, in the units of the file.");
     double length = settings.edge_length;
-    if (ImGui::InputDouble("##edge", &length, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) &&
+    if (ImGui::InputDouble("##edge", &length, 0, 0, "%.6g", ImGuiInputTextFlags_CharsScientific) &&
         length > 0) {
       settings.edge_length = length;
       change(ui, settings, "Edge length");
@@ -167,8 +207,7 @@ void draw_reach(const Ui& ui) {
   row_label(ui, "Distance",
             "Largest distance from the mesh as opened, in percent of its bounding-box diagonal.");
   double percent = 100 * settings.max_deviation;
-  if (ImGui::InputDouble("##max-deviation", &percent, 0, 0, "%.4g %%",
-                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsScientific) &&
+  if (ImGui::InputDouble("##max-deviation", &percent, 0, 0, "%.4g %%", ImGuiInputTextFlags_CharsScientific) &&
       percent >= 0) {
     settings.max_deviation = percent / 100;
     change(ui, settings, "Distance");
@@ -206,20 +245,19 @@ void draw_iterations(const Ui& ui) {
   end_edit_after_item(ui);
   mark(ui, "iterations");
 
-  constexpr std::array<std::string_view, 4> kLabels{"Off", "1e-4", "1e-6", "1e-8"};
+  constexpr std::array<std::string_view, 5> kLabels{"Off", "1e-4", "1e-6", "1e-8", kOther};
   constexpr std::array kTolerances{0.0, 1e-4, 1e-6, 1e-8};
-  constexpr const char* kTip =
+  const Presets tolerances{
+      "tolerance",
+      "Tolerance",
       "A run ends when the gradient, the decrease of the energy or the largest move has fallen below this "
-      "share of its "
-      "start, of the energy, or of the mean edge length.";
-  row_label(ui, "Tolerance", kTip);
-  int chosen = 2;
-  for (int k = 0; k < 4; ++k)
-    if (kTolerances[static_cast<std::size_t>(k)] == settings.tolerance) chosen = k;
-  const int choice = segmented(ui, "tolerance", kLabels, chosen, ImGui::GetContentRegionAvail().x);
-  if (choice < 0) return;
-  settings.tolerance = kTolerances[static_cast<std::size_t>(choice)];
-  change(ui, settings, "Tolerance");
+      "share of its start, of the energy, or of the mean edge length. \xE2\x80\xA6: any from 0 to 1.",
+      kLabels,
+      kTolerances,
+      0,
+      1};
+  if (draw_presets(ui, tolerances, settings.tolerance, ui.state.typing.tolerance))
+    change(ui, settings, "Tolerance");
 }
 
 // What Run does.

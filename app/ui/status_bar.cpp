@@ -38,11 +38,10 @@ void draw_progress(const Ui& ui, const model::Progress& progress, float x) {
   mark_area(ui, "progress", {{origin.x + x, y}, {origin.x + x + width, y + ui.px(4)}});
 }
 
+// A message that came after the run says more than the run does.
 std::string news(const model::Session& s) {
-  if (s.last_run && !s.is_running()) {
-    // A message that came after the run says more than the run does.
-    return describe_last_run(s);
-  }
+  const std::uint64_t newest = s.messages.empty() ? 0 : s.messages.back().number;
+  if (s.last_run && !s.is_running() && newest <= s.last_run_number) return describe_last_run(s);
   return s.messages.empty() ? "" : s.messages.back().text;
 }
 

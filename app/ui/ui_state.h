@@ -113,6 +113,7 @@ struct FileBrowser {
     std::filesystem::file_time_type modified;
   };
   bool wanted = false;  ///< opens with the next frame
+  bool open = false;
   FilePurpose purpose = FilePurpose::open_mesh;
   std::filesystem::path folder;
   std::string typed_folder;
@@ -147,6 +148,7 @@ struct Typing {
   std::string predicate;
   bool logs = false;  ///< the predicate tells instead of stopping
   int compare_with = 0;
+  bool exponent = false, tolerance = false;  ///< other ones than the usual, even where they are the same
 };
 
 /// State of the widgets: nothing here is about the mesh.
@@ -163,7 +165,7 @@ struct UiState {
   FileBrowser browser;
   PendingAction pending;
   bool ask_unsaved = false;
-  bool quit_after_save = false;
+  bool go_on_after_save = false;  ///< with `pending`
   std::uint64_t dismissed_message = 0;
   std::array<float, 2> typed_range{0, 1};
   Comparison comparison;

@@ -308,7 +308,7 @@ TEST_F(SessionTest, NextWorstWalksFromTheSmallestAngleUpwards) {
     EXPECT_GE(angle(), last);
     last = angle();
   }
-  EXPECT_EQ(session.worst_rank, 11U);
+  EXPECT_EQ(session.rank_of_worst(), 11U);
 }
 
 TEST_F(SessionTest, TheRunRangeHoldsEverythingSinceOpening) {

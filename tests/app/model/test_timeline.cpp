@@ -319,8 +319,41 @@ TEST_F(TimelineTest, WorstTrianglesComeByAnyMetric) {
     const Index first = *session.selected_triangle;
     act(SelectNextWorst{});
     EXPECT_NE(session.selected_triangle, first);
-    EXPECT_EQ(session.worst_rank, 2U);
+    EXPECT_EQ(session.rank_of_worst(), 2U);
   }
+}
+
+TEST_F(TimelineTest, ATriangleIsNoLongerOneOfTheWorstOnceTheMeshIsAnother) {
+  open();
+  act(SelectNextWorst{});
+  act(SelectNextWorst{});
+  EXPECT_EQ(session.rank_of_worst(), 2U);
+  act(Step{});
+  EXPECT_TRUE(session.selected_triangle);
+  EXPECT_EQ(session.rank_of_worst(), 0U);
+  act(SelectNextWorst{});
+  EXPECT_EQ(session.rank_of_worst(), 1U) << "from the worst on";
+}
+
+TEST_F(TimelineTest, RunsBesideFollowUndoAndReset) {
+  open();
+  act(Step{});
+  act(Step{});
+  act(Seek{0, {}});
+  SmoothingSettings settings = session.smoothing;
+  settings.method = Method::laplacian;
+  act(SetSmoothing{settings, "Solver"});
+  act(Step{});
+  act(ShowBranches{{0}});
+  act(Reset{});
+  ASSERT_EQ(session.other_states.size(), 1U);
+  EXPECT_EQ(session.other_states[0]->iteration, 0U);
+  act(Undo{});
+  ASSERT_EQ(session.other_states.size(), 1U);
+  EXPECT_EQ(session.other_states[0]->iteration, 1U);
+  while (session.timeline.cursor.branch != 0 && session.undo.next_undo() != nullptr) act(Undo{});
+  EXPECT_EQ(session.timeline.cursor.branch, 0U);
+  EXPECT_TRUE(session.shown_branches.empty()) << "a run does not stand beside itself";
 }
 
 TEST_F(TimelineTest, AFoldedCornerIsFoundAmongAllTriangles) {
