@@ -64,8 +64,8 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   if (guard_ == StepGuard::folds_and_energy || guard_ == StepGuard::all_or_nothing) guard_energy(record);
   there_.mark(trial_.to());
   last_energy_rounds_ = record.energy_passes;
-  last_folded_ = static_cast<std::size_t>(std::ranges::count_if(
-      record.limits, [](std::uint16_t limits) { return (limits & kLimitFold) != 0; }));
+  last_folded_ = static_cast<std::size_t>(
+      std::ranges::count_if(record.limits, [](std::uint16_t limits) { return (limits & kLimitFold) != 0; }));
   finish(record);
 }
 
