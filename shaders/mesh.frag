@@ -10,6 +10,7 @@ flat in uint marks;
 
 uniform float relief;  // 0: no shading at all, 1: full
 uniform bool backs_marked;
+uniform bool faces_inward;  // the backs look at the eye where the surface is seen from outside
 #ifdef LINES
 uniform bool faces_shown;
 uniform bool wire_shown;
@@ -62,7 +63,7 @@ void main() {
   float light = 0.42 + clamp(gl_FrontFacing ? facing : -facing, 0.0, 0.66);
   vec3 c = color.rgb * mix(1.0, light, relief);
   // The back of a face: wine-red, whatever its colour.
-  if (backs_marked && !gl_FrontFacing) c = mix(c, vec3(0.56, 0.09, 0.2), 0.75);
+  if (backs_marked && gl_FrontFacing == faces_inward) c = mix(c, vec3(0.56, 0.09, 0.2), 0.75);
 #ifdef LINES
   fragment = with_lines(c);
 #else

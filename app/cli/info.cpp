@@ -9,6 +9,7 @@
 #include "cli/mesh_input.h"
 #include "cli/table.h"
 #include "mesh/validation.h"
+#include "surface/deviation.h"
 
 namespace isorelax::cli {
 namespace {
@@ -60,7 +61,12 @@ std::string orientation_text(const ValidationReport& report) {
                            : "inconsistent, the surface has one side";
 }
 
-std::string report_text(const ValidationReport& report) {
+std::string facing_text(const ValidationReport& report, bool inward) {
+  if (inward) return "inward: the triangles show their backs to the outside";
+  return report.closed && report.oriented ? "outward" : "not inward";
+}
+
+std::string report_text(const ValidationReport& report, const std::string& facing) {
   Table table;
   table.row("vertices", std::to_string(report.vertices));
   table.row("triangles", std::to_string(report.triangles));
@@ -72,6 +78,7 @@ std::string report_text(const ValidationReport& report) {
   table.row("closed", report.closed ? "yes" : "no");
   table.row("manifold", report.manifold() ? "yes" : "no");
   table.row("orientation", orientation_text(report));
+  table.row("facing", facing);
   table.row("non-manifold edges", listed<EdgeFinding>(report.non_manifold_edges, edge_text));
   table.row("non-manifold vertices", listed<Index>(report.non_manifold_vertices, id_text));
   table.row("inconsistent edges", listed<EdgeFinding>(report.inconsistent_edges, edge_text));
@@ -93,6 +100,8 @@ class InfoCommand : public Command {
            "  components            triangles that hang together by edges\n"
            "  boundary loops        chains of edges with one triangle; open: cut off by a non-manifold edge\n"
            "  genus                 handles; undefined where a part is non-manifold or has one side\n"
+           "  facing                outward or inward, by the sign of the enclosed volume; inward, too, where\n"
+           "                        holes of less than a quarter of the area are all that opens the mesh\n"
            "  non-manifold edges    three or more triangles meet\n"
            "  non-manifold vertices on such an edge, or several fans of triangles meet\n"
            "  inconsistent edges    their two triangles run along them in the same direction\n"
@@ -104,8 +113,16 @@ class InfoCommand : public Command {
     app.add_flag("--json", json_, "Print one JSON object");
   }
   int run(Console& console) override {
-    const ValidationReport report = validate(read_input(console, file_));
-    console.result(json_ ? json_text(to_json(report)) : report_text(report));
+    const TriangleMesh mesh = read_input(console, file_);
+    const ValidationReport report = validate(mesh);
+    const bool inward = faces_inward(mesh.positions, mesh.triangles);
+    if (json_) {
+      Json object = to_json(report);
+      object["faces_inward"] = inward;
+      console.result(json_text(object));
+    } else {
+      console.result(report_text(report, facing_text(report, inward)));
+    }
     return kDone;
   }
 

@@ -28,6 +28,7 @@ const render::Scene& ViewScene::make(const Shown& shown, const view::View& view)
   subject.triangles = document_->mesh().triangles;
   subject.values = state->values(coloring_of(color_));
   subject.boundary_marks = document_->boundary_marks;
+  subject.faces_inward = document_->faces_inward;
   if (against) subject.against = against->positions();
   subject.report = &state->quality();
   subject.positions_revision = positions_;
@@ -48,7 +49,8 @@ namespace {
 
 render::Camera look_along(render::Camera camera, const model::Session& session, const Vec3& normal) {
   if (session.document->plane_normal || normal.norm() == 0) return camera;
-  const Vec3 n = normal.normalized();
+  // From outside, wherever the fronts look.
+  const Vec3 n = (session.document->faces_inward ? -1 : 1) * normal.normalized();
   const bool y_up = camera.up == render::UpAxis::y;
   camera.azimuth_deg = kDegrees * (y_up ? std::atan2(n.x(), n.z()) : std::atan2(n.x(), -n.y()));
   camera.elevation_deg =

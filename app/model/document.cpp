@@ -4,6 +4,8 @@
 #include <span>
 #include <utility>
 
+#include "surface/deviation.h"
+
 namespace isorelax::model {
 namespace {
 
@@ -44,6 +46,7 @@ std::shared_ptr<Document> complete(std::filesystem::path path, MeshFile file) {
   document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
   document->plane_normal = find_plane(document->mesh());
   document->boundary_marks = mark_boundary(document->topology);
+  document->faces_inward = faces_inward(document->mesh().positions, document->mesh().triangles);
   return document;
 }
 

@@ -23,6 +23,8 @@ struct Document {
   std::optional<Vec3> plane_normal;
   /// Per triangle: bit k is set where the edge opposite corner k has no other triangle.
   std::vector<std::uint8_t> boundary_marks;
+  /// See isorelax::faces_inward.
+  bool faces_inward = false;
   /// Of a sphere that was made here and is in no file.
   std::optional<SphereStart> sphere;
 

@@ -169,6 +169,8 @@ void publish_loaded(const JobContext& context, DocumentPtr document, SmoothingSe
   auto state = std::make_shared<MeshState>();
   state->geometry = measure_geometry(*loaded.document, loaded.document->mesh().positions);
   loaded.notes = loaded.document->file.messages;
+  if (loaded.document->faces_inward)
+    loaded.notes.emplace_back("the mesh faces inward: its triangles show their backs to the outside");
   if (context.cancelled()) throw Error(cancelled);
   context.bench().forget();
   // A mesh that cannot be smoothed can still be looked at.

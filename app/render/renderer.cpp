@@ -187,6 +187,7 @@ void Renderer::Impl::draw_meshes(const Scene& scene, const Camera& camera, Pictu
     program.set("relief", mesh.face_values.empty() ? kPlainRelief : kColoredRelief);
     program.set("faces_shown", mesh.faces_shown ? 1 : 0);
     program.set("backs_marked", mesh.backs_marked ? 1 : 0);
+    program.set("faces_inward", mesh.faces_inward ? 1 : 0);
     program.set("wire_shown", mesh.wire.shown ? 1 : 0);
     program.set("wire_color", wire);
     program.set("wire_half_width", half_pixels(mesh.wire.width));

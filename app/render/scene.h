@@ -63,7 +63,8 @@ struct SceneMesh {
   Shading shading = Shading::flat;
   bool faces_shown =
       true;  ///< else edges alone are seen, with nothing between them; faces still hide what is behind
-  bool backs_marked = true;  ///< the backs of faces are wine-red
+  bool backs_marked = true;   ///< the backs of faces are wine-red
+  bool faces_inward = false;  ///< the sides whose corners run clockwise are the fronts
   Wire wire;
   EdgeStyle marked_edges;
   Color crease_color{255, 122, 61};

@@ -136,7 +136,7 @@ void draw_grid(const Ui& ui, Rect rect, const ViewportImage& image) {
   if (image.legend != nullptr) {
     const float left = rect.high.x - std::floor(ui.px(kLegendStrip));
     draw_part(image.legend, {{left, rect.low.y}, rect.high}, 0, 1);
-    mark_area(ui, "legend", {{left, rect.low.y}, rect.high});
+    mark_area(ui, "pane-legend", {{left, rect.low.y}, rect.high});
     rect.high.x = left;
   }
   const Grid grid = grid_of(1 + image.others.size(), rect.width(), rect.height());

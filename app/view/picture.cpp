@@ -10,6 +10,7 @@
 #include "mesh/error.h"
 #include "mesh/topology.h"
 #include "render/overlay.h"
+#include "surface/deviation.h"
 #include "view/measures.h"
 #include "view/panels.h"
 
@@ -20,6 +21,7 @@ namespace {
 struct Prepared {
   std::vector<double> values;
   std::vector<std::uint8_t> boundary;
+  bool faces_inward = false;
   std::optional<QualityReport> report;
 };
 
@@ -56,6 +58,7 @@ std::vector<Prepared> prepare(const View& view, const Exhibits& exhibits) {
     Prepared& made = all.emplace_back();
     made.values = values_of(view, *mesh, exhibits.against);
     if (mesh->triangles.empty()) continue;
+    made.faces_inward = faces_inward(mesh->positions, mesh->triangles);
     if (view.boundary)
       made.boundary = render::mark_boundary_edges(Topology(mesh->triangles, mesh->vertex_count()));
     if (view.numbers) made.report = measure_quality(*mesh);
@@ -122,6 +125,7 @@ Subject subject_of(const View& view, const Exhibits& exhibits, const Prepared& p
   subject.triangles = exhibits.meshes[i]->triangles;
   subject.values = prepared.values;
   subject.boundary_marks = prepared.boundary;
+  subject.faces_inward = prepared.faces_inward;
   if (exhibits.against != nullptr) subject.against = exhibits.against->positions;
   if (prepared.report) subject.report = &*prepared.report;
   subject.label = label_of(view, i, exhibits.meshes.size());

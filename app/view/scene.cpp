@@ -123,6 +123,7 @@ Depiction depict(const View& view, const render::Coloring& coloring, const Subje
   mesh.positions_revision = subject.positions_revision;
   mesh.triangles_revision = subject.triangles_revision;
   mesh.values_revision = subject.values_revision;
+  mesh.faces_inward = subject.faces_inward;
   mesh.coloring = coloring;
   mesh.shading = view.shading;
   mesh.wire.shown = view.wire;

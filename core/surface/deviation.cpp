@@ -12,12 +12,36 @@
 namespace isorelax {
 namespace {
 
-bool is_closed(const Topology& topology) {
+/// A flat closed surface encloses rounding errors only: less than this share of its diagonal cubed.
+constexpr double kLeastVolume = 1e-12;
+
+/// The holes of a surface that is all but closed take less than this share of its area.
+constexpr double kLargestHoles = 0.25;
+
+bool is_oriented(const Topology& topology) {
   for (Corner c = 0; c < 3 * topology.triangle_count(); ++c)
-    if (topology.edge_triangle_count(c) != 2) return false;
+    if (topology.edge_triangle_count(c) > 2) return false;
   for (Index v = 0; v < topology.vertex_count(); ++v)
     if (topology.flags(v) & kInconsistentVertex) return false;
   return topology.triangle_count() > 0;
+}
+
+bool is_closed(const Topology& topology) {
+  for (Corner c = 0; c < 3 * topology.triangle_count(); ++c)
+    if (topology.is_boundary_edge(c)) return false;
+  return is_oriented(topology);
+}
+
+/// Whether the area vectors add up to little: those of a closed surface add up to nothing.
+bool has_small_holes(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3 vector = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+    sum += vector;
+    area += vector.norm();
+  }
+  return sum.norm() < kLargestHoles * area;
 }
 
 double largest_normal_change(std::span<const Vec3> before, std::span<const Vec3> after,
@@ -64,6 +88,15 @@ double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle
   return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
+bool faces_inward(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  const double diagonal = bounding_diagonal(positions);
+  const double volume = enclosed_volume(positions, triangles);
+  // Most meshes need no topology to be told from these.
+  if (!(volume < -kLeastVolume * diagonal * diagonal * diagonal)) return false;
+  return has_small_holes(positions, triangles) &&
+         is_oriented(Topology(triangles, static_cast<Index>(positions.size())));
+}
+
 Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,
                             std::span<const Triangle> triangles, const Topology& topology, unsigned threads) {
   return measure_deviation_by_triangle(original, changed, triangles, topology, threads).whole;
@@ -93,8 +126,7 @@ DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original
   if (area > 0) result.rms = std::sqrt((there.squares + back.squares) / area) / diagonal;
   result.normal_change_deg = largest_normal_change(original, changed, triangles, threads);
   const double volume = enclosed_volume(original, triangles, threads);
-  // A flat closed surface encloses rounding errors only.
-  if (is_closed(topology) && std::abs(volume) > 1e-12 * diagonal * diagonal * diagonal) {
+  if (is_closed(topology) && std::abs(volume) > kLeastVolume * diagonal * diagonal * diagonal) {
     result.has_volume = true;
     result.volume_change = (enclosed_volume(changed, triangles, threads) - volume) / std::abs(volume);
   }

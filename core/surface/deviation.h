@@ -58,4 +58,8 @@ struct DeviationByTriangle {
 [[nodiscard]] double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                      unsigned threads = 0);
 
+/// Whether the front sides of a surface look into what it encloses: it is closed, or but for holes of less
+/// than a quarter of its area, consistently oriented, and its volume is negative.
+[[nodiscard]] bool faces_inward(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
 }  // namespace isorelax

@@ -302,6 +302,17 @@ TEST(InfoCommand, TellsGenusBoundaryAndOrientation) {
   EXPECT_EQ(square["closed"], false);
 }
 
+TEST(InfoCommand, TellsAMeshThatFacesInward) {
+  const Workspace workspace;
+  const std::string corners = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const std::string outward = workspace.write("o.off", corners + "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const std::string inward = workspace.write("i.off", corners + "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 0 2 3\n");
+  EXPECT_EQ(Json::parse(run_program("info --json " + outward).out)["faces_inward"], false);
+  EXPECT_EQ(Json::parse(run_program("info --json " + inward).out)["faces_inward"], true);
+  const Outcome text = run_program("info " + inward);
+  EXPECT_NE(text.out.find("inward: the triangles show their backs"), std::string::npos) << text.out;
+}
+
 TEST(GenerateCommand, WritesTheSameBytesForTheSameSeed) {
   const Workspace workspace;
   for (const char* const name : {"a.off", "b.off"}) {

@@ -97,6 +97,20 @@ TEST_F(EditorViews, APastedViewBringsItsMarkedTriangle) {
   EXPECT_EQ(view::parse_view(clipboard(), "text").selected, marked);
 }
 
+TEST_F(EditorViews, AMeshThatFacesInwardIsToldSoAndSeenFromOutside) {
+  TriangleMesh mesh = generate(ShapeKind::sphere, {});
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  (void)write_mesh(folder / "inward.ply", mesh);
+  open(folder / "inward.ply");
+  EXPECT_TRUE(std::ranges::any_of(editor.session().notes, [](const std::string& note) {
+    return note.find("faces inward") != std::string::npos;
+  }));
+  model::execute(editor.session(), model::SelectTriangle{0});
+  editor.ask(ui::FlyToSelection{});
+  const Vec3 eye = render::axes_of(editor.camera()).toward_eye;
+  EXPECT_GT(eye.dot(editor.camera().target.normalized()), 0.9);
+}
+
 TEST_F(EditorViews, TextThatIsNoViewIsRefusedWithAMessageAndChangesNothing) {
   open(folder.make_square());
   const render::Camera camera = editor.camera();

@@ -104,6 +104,13 @@ TEST_F(PictureTest, meshes_stand_side_by_side_under_one_camera_and_one_range) {
   EXPECT_NEAR(fixed.range.ends.high, 45, 1e-9);
 }
 
+TEST_F(PictureTest, a_mesh_that_faces_inward_shows_its_quality_like_any_other) {
+  TriangleMesh turned = torus_;
+  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  const View view = small_view();
+  EXPECT_EQ(draw(view, {&turned}), draw(view, {&torus_}));
+}
+
 TEST_F(PictureTest, values_outside_the_range_are_grey) {
   View view = small_view();
   view.range = {RangeRule::ends, {50, 60}};

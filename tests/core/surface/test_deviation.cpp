@@ -121,6 +121,40 @@ TEST(Deviation, HasNoVolumeChangeForAnOpenSurface) {
   EXPECT_EQ(deviation(mesh, grown).volume_change, 0);
 }
 
+/// The same surface with its triangles turned over.
+TriangleMesh turned(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+bool inward(const TriangleMesh& mesh) {
+  return faces_inward(mesh.positions, mesh.triangles);
+}
+
+TEST(FacesInward, TellsASurfaceTurnedInsideOut) {
+  TriangleMesh ball = with_vertices(ShapeKind::sphere, 500);
+  EXPECT_FALSE(inward(ball));
+  EXPECT_TRUE(inward(turned(ball)));
+  ball.triangles.pop_back();
+  EXPECT_FALSE(inward(ball));
+  EXPECT_TRUE(inward(turned(ball))) << "a small hole";
+}
+
+TEST(FacesInward, SaysNothingOfSheetsAndOfWhatDisagreesWithItself) {
+  TriangleMesh ball = turned(with_vertices(ShapeKind::sphere, 500));
+  std::swap(ball.triangles[0][1], ball.triangles[0][2]);
+  EXPECT_FALSE(inward(ball));
+  EXPECT_FALSE(inward({}));
+  for (const TriangleMesh& sheet : {saddle(6), with_triangles(ShapeKind::random_square, 400)}) {
+    EXPECT_FALSE(inward(sheet));
+    EXPECT_FALSE(inward(turned(sheet)));
+  }
+  // A dome seen from below is seen from inside.
+  TriangleMesh dome = with_vertices(ShapeKind::sphere, 500);
+  std::erase_if(dome.triangles, [&](const Triangle& t) { return dome.positions[t[0]].z() < 0; });
+  EXPECT_FALSE(inward(turned(dome)));
+}
+
 TEST(Deviation, OfAnEmptyMeshIsNothing) {
   const Deviation d = deviation(TriangleMesh(), {});
   EXPECT_EQ(d.max, 0);
