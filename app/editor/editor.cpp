@@ -63,25 +63,30 @@ void Editor::frame(const FrameOptions& options) {
   draw_pictures();
   drawing += seconds_since(before_mesh);
 
-  ui::ViewportImage image;
-  if (current_.drawn) image.texture = texture_id(current_.renderer.color_texture());
-  if (before_.drawn) image.before = texture_id(before_.renderer.color_texture());
-  for (const auto& other : others_) image.others.push_back(texture_id(other->renderer.color_texture()));
-  if (legend_) image.legend = texture_id(legend_->renderer.color_texture());
-  carry_out(interface_.frame(
-      session_,
-      {.display = display, .scale = scale_, .seconds = static_cast<float>(elapsed), .viewport = image}));
+  carry_out(interface_.frame(session_, {.display = display,
+                                        .scale = scale_,
+                                        .seconds = static_cast<float>(elapsed),
+                                        .viewport = viewport_image()}));
   const auto before_paint = Clock::now();
   painter_.paint(interface_, options.size);
   drawing += seconds_since(before_paint);
   times_ = {seconds_since(start) - drawing, drawing};
 }
 
+ui::ViewportImage Editor::viewport_image() const {
+  ui::ViewportImage image;
+  if (current_.drawn) image.texture = texture_id(current_.renderer.color_texture());
+  if (before_.drawn) image.before = texture_id(before_.renderer.color_texture());
+  for (const auto& other : others_) image.others.push_back(texture_id(other->renderer.color_texture()));
+  if (legend_) image.legend = texture_id(legend_->renderer.color_texture());
+  return image;
+}
+
 view::View Editor::present_view() const {
   const ui::Comparison& comparison = interface_.state().comparison;
   view::View view = view_of(session_, base_, camera_, pane(), scale_);
   // One for all of them stands beside them.
-  if (shows_others()) view.legend = false;
+  if (panes() > 1) view.legend = false;
   if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
     return view;
   view.difference = true;
@@ -109,23 +114,30 @@ bool Editor::shows_others() const {
   return !session_.other_states.empty() && interface_.state().comparison.mode == ui::CompareMode::off;
 }
 
+// Pictures side by side.
+std::size_t Editor::panes() const {
+  if (shows_others()) return 1 + session_.other_states.size();
+  const ui::Comparison& comparison = interface_.state().comparison;
+  const bool pair = comparison.mode == ui::CompareMode::side_by_side && session_.current &&
+                    partner_.shown(session_, comparison).state;
+  return pair ? 2 : 1;
+}
+
 // Pixels at the right of several pictures for the legend of all.
 int Editor::legend_strip() const {
-  const bool wanted =
-      shows_others() && session_.view.legend && session_.view.coloring != model::Coloring::none;
+  const bool wanted = panes() > 1 && session_.view.legend && session_.view.coloring != model::Coloring::none;
   return wanted ? static_cast<int>(std::floor(ui::kLegendStrip * scale_)) : 0;
 }
 
 // What one picture of the viewport has: its part where several stand side by side.
 render::PictureSize Editor::pane() const {
-  if (shows_others()) {
-    const int width = viewport_.width - legend_strip();
-    const ui::Grid grid = ui::grid_of(1 + session_.other_states.size(), static_cast<float>(width),
-                                      static_cast<float>(viewport_.height));
-    return {std::max(1, width / grid.columns), std::max(1, viewport_.height / grid.rows)};
-  }
-  if (interface_.state().comparison.mode != ui::CompareMode::side_by_side) return viewport_;
-  return {std::max(1, viewport_.width / 2), viewport_.height};
+  const std::size_t count = panes();
+  if (count == 1) return viewport_;
+  const int width = viewport_.width - legend_strip();
+  const ui::Grid grid =
+      shows_others() ? ui::grid_of(count, static_cast<float>(width), static_cast<float>(viewport_.height))
+                     : ui::Grid{2, 1};
+  return {std::max(1, width / grid.columns), std::max(1, viewport_.height / grid.rows)};
 }
 
 void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {
@@ -149,7 +161,7 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
   // One legend serves both.
-  if (&picture == &before_ && (lines_only || view.size != viewport_)) scene.legend.reset();
+  if (lines_only) scene.legend.reset();
   if (&picture == &current_) add_step(session_, shown.state->positions(), scene);
   if (lines_only) {
     scene.transparent = true;
@@ -186,6 +198,7 @@ void Editor::draw_pictures() {
   if (comparable) now.against = before.state;
   draw(current_, now, present_view());
   draw_others();
+  draw_legend();
   if (!shows_before() || !before.state) {
     before_.drawn = false;
     return;
@@ -206,7 +219,6 @@ void Editor::draw_others() {
   view.arrows = false;
   for (std::size_t k = 0; k < count; ++k)
     draw(*others_[k], {session_.document, session_.other_states[k], session_.original}, view);
-  draw_legend();
 }
 
 void Editor::draw_legend() {
@@ -338,16 +350,25 @@ void Editor::carry_out_request(const ui::Request& request) {
   }
 }
 
-// The picture of the present state: `isorelax render --like` it gives the same bytes.
+// The picture of one mesh carries its view: `isorelax render --like` it gives the same bytes. What stands
+// beside or over another state is taken as the viewport shows it, and no view says how to make that again.
 void Editor::save_picture(const std::filesystem::path& path) {
   if (!session_.current) return;
   try {
-    const view::View view = present_view();
-    current_.drawn = false;
-    draw(current_, shown_now(), view);
-    render::Image image = current_.renderer.read_back();
-    if (view.transparent) unmultiply(image);
-    view::write_picture(path, {image, view});
+    draw_pictures();
+    if (shows_others() || before_.drawn) {
+      const ImVec2 size{static_cast<float>(viewport_.width), static_cast<float>(viewport_.height)};
+      painter_.paint(
+          interface_,
+          interface_.compose(session_, {.display = size, .scale = scale_, .viewport = viewport_image()}),
+          viewport_);
+      render::write_png(path, painter_.read_back());
+    } else {
+      const view::View view = present_view();
+      render::Image image = current_.renderer.read_back();
+      if (view.transparent) unmultiply(image);
+      view::write_picture(path, {image, view});
+    }
     say(model::MessageKind::info, "Saved " + path.string());
   } catch (const Error& error) {
     say(model::MessageKind::error, error.what());

@@ -98,6 +98,7 @@ class Editor {
   [[nodiscard]] render::Camera framed();
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
+  [[nodiscard]] std::size_t panes() const;
   [[nodiscard]] render::PictureSize pane() const;
   [[nodiscard]] Shown shown_now() const;
   [[nodiscard]] bool shows_others() const;
@@ -111,6 +112,7 @@ class Editor {
   void carry_out(const ui::Output& output);
   void carry_out_request(const ui::Request& request);
   void fly_to(const render::Camera& to);
+  [[nodiscard]] ui::ViewportImage viewport_image() const;
   void save_picture(const std::filesystem::path& path);
   void save_script(const std::filesystem::path& path);
   void copy_view();

@@ -120,6 +120,10 @@ void Painter::upload_atlas(ui::Interface& interface) {
 }
 
 void Painter::paint(ui::Interface& interface, render::PictureSize size) {
+  paint(interface, interface.draw_data(), size);
+}
+
+void Painter::paint(ui::Interface& interface, const ImDrawData& data, render::PictureSize size) {
   upload_atlas(interface);
   resize(size);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
@@ -138,7 +142,7 @@ void Painter::paint(ui::Interface& interface, render::PictureSize size) {
   glActiveTexture(GL_TEXTURE0);
   glBindVertexArray(vertex_array_);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
-  draw(interface.draw_data());
+  draw(data);
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_SCISSOR_TEST);

@@ -26,6 +26,8 @@ class Painter {
 
   /// Draws the interface's last frame at this size.
   void paint(ui::Interface& interface, render::PictureSize size);
+  /// Draws what the interface made.
+  void paint(ui::Interface& interface, const ImDrawData& data, render::PictureSize size);
   /// Copies the last picture to the context's own framebuffer.
   void show(render::PictureSize window) const;
   /// The last picture.

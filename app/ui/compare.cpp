@@ -11,11 +11,11 @@ namespace {
 constexpr float kBlinkSeconds = 0.6F;
 
 /// A part of a picture from share a to share b of its width, where it would be if it filled the rectangle.
-void draw_part(ImTextureID texture, const Rect& rect, float a, float b) {
+void draw_part(ImDrawList& draw, ImTextureID texture, const Rect& rect, float a, float b) {
   if (texture == nullptr || a >= b) return;
   const float x0 = rect.low.x + a * rect.width();
   const float x1 = rect.low.x + b * rect.width();
-  ImGui::GetWindowDrawList()->AddImage(texture, {x0, rect.low.y}, {x1, rect.high.y}, {a, 1}, {b, 0});
+  draw.AddImage(texture, {x0, rect.low.y}, {x1, rect.high.y}, {a, 1}, {b, 0});
 }
 
 std::string name_of_before(const Comparison& comparison) {
@@ -32,19 +32,18 @@ std::string name_of_before(const Comparison& comparison) {
   return "Original";
 }
 
-void draw_name(const Ui& ui, const std::string& name, float x, float y, bool right_of_x) {
-  const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+void draw_name(const Ui& ui, ImDrawList& draw, const std::string& name, float x, float y, bool right_of_x) {
+  ImFont& font = *ui.fonts.text;
+  const ImVec2 size = font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, name.c_str());
   const ImVec2 pad{ui.px(8), ui.px(4)};
   const float left = right_of_x ? x + ui.px(10) : x - ui.px(10) - size.x - 2 * pad.x;
   const ImVec2 low{left, y - ui.px(12) - size.y - 2 * pad.y};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(low, {low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y}, IM_COL32(34, 37, 43, 225),
                      ui.px(5));
-  draw.AddText({low.x + pad.x, low.y + pad.y}, color::kText, name.c_str());
+  draw.AddText(&font, font.FontSize, {low.x + pad.x, low.y + pad.y}, color::kText, name.c_str());
 }
 
-void draw_divider(const Ui& ui, const Rect& rect, float x) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
+void draw_divider(const Ui& ui, ImDrawList& draw, const Rect& rect, float x) {
   const float middle = rect.center().y;
   draw.AddRectFilled({x - ui.px(1), rect.low.y}, {x + ui.px(1), rect.high.y}, color::kAccent);
   draw.AddRectFilled({x - ui.px(6), middle - ui.px(16)}, {x + ui.px(6), middle + ui.px(16)}, color::kAccent,
@@ -52,16 +51,16 @@ void draw_divider(const Ui& ui, const Rect& rect, float x) {
   mark_area(ui, "divider", {{x - ui.px(6), middle - ui.px(16)}, {x + ui.px(6), middle + ui.px(16)}});
 }
 
-void draw_blink(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+void draw_blink(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image) {
   Comparison& comparison = ui.state.comparison;
   comparison.blink_seconds += ImGui::GetIO().DeltaTime;
   if (comparison.blink_seconds > kBlinkSeconds) {
     comparison.blink_seconds = 0;
     comparison.blink_before = !comparison.blink_before;
   }
-  draw_part(comparison.blink_before ? image.before : image.texture, rect, 0, 1);
-  draw_name(ui, comparison.blink_before ? name_of_before(comparison) : "Current", rect.low.x, rect.high.y,
-            true);
+  draw_part(draw, comparison.blink_before ? image.before : image.texture, rect, 0, 1);
+  draw_name(ui, draw, comparison.blink_before ? name_of_before(comparison) : "Current", rect.low.x,
+            rect.high.y, true);
 }
 
 void choose_partner(const Ui& ui) {
@@ -130,33 +129,36 @@ Grid grid_of(std::size_t pictures, float width, float height) {
 
 namespace {
 
+// Draws the legend that panes share. Returns what is left for them.
+Rect beside_legend(const Ui& ui, ImDrawList& draw, Rect rect, const ViewportImage& image) {
+  if (image.legend == nullptr) return rect;
+  const float left = rect.high.x - std::floor(ui.px(kLegendStrip));
+  draw_part(draw, image.legend, {{left, rect.low.y}, rect.high}, 0, 1);
+  mark_area(ui, "pane-legend", {{left, rect.low.y}, rect.high});
+  rect.high.x = left;
+  return rect;
+}
+
 // The present run at the upper left, the others behind it, each with its name.
-void draw_grid(const Ui& ui, Rect rect, const ViewportImage& image) {
+void draw_grid(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image) {
   const model::Session& s = ui.session;
-  if (image.legend != nullptr) {
-    const float left = rect.high.x - std::floor(ui.px(kLegendStrip));
-    draw_part(image.legend, {{left, rect.low.y}, rect.high}, 0, 1);
-    mark_area(ui, "pane-legend", {{left, rect.low.y}, rect.high});
-    rect.high.x = left;
-  }
   const Grid grid = grid_of(1 + image.others.size(), rect.width(), rect.height());
   const float width = std::floor(rect.width() / static_cast<float>(grid.columns));
   const float height = std::floor(rect.height() / static_cast<float>(grid.rows));
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k <= image.others.size(); ++k) {
     const int column = static_cast<int>(k) % grid.columns;
     const int row = static_cast<int>(k) / grid.columns;
     const ImVec2 low{rect.low.x + static_cast<float>(column) * width,
                      rect.low.y + static_cast<float>(row) * height};
     const Rect cell{low, {low.x + width, low.y + height}};
-    draw_part(k == 0 ? image.texture : image.others[k - 1], cell, 0, 1);
+    draw_part(draw, k == 0 ? image.texture : image.others[k - 1], cell, 0, 1);
     draw.AddRect(cell.low, cell.high, color::kLine);
     const unsigned branch = k == 0                            ? s.timeline.cursor.branch
                             : k - 1 < s.shown_branches.size() ? s.shown_branches[k - 1]
                                                               : 0;
     if (branch >= s.timeline.branches.size()) continue;
     const unsigned at = std::min(s.timeline.cursor.iteration, s.timeline.branches[branch].tip());
-    draw_name(ui, s.timeline.branches[branch].name + ", iteration " + std::to_string(at), cell.low.x,
+    draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at), cell.low.x,
               cell.high.y, true);
     mark_area(ui, "view/" + std::to_string(k), cell);
   }
@@ -164,42 +166,44 @@ void draw_grid(const Ui& ui, Rect rect, const ViewportImage& image) {
 
 }  // namespace
 
-void draw_pictures(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image) {
   const Comparison& comparison = ui.state.comparison;
   if (!image.others.empty()) {
-    draw_grid(ui, rect, image);
+    draw_grid(ui, draw, beside_legend(ui, draw, rect, image), image);
     return;
   }
   const bool pair = image.before != nullptr;
   switch (pair ? comparison.mode : CompareMode::off) {
     case CompareMode::off:
     case CompareMode::change:
-      draw_part(image.texture, rect, 0, 1);
+      draw_part(draw, image.texture, rect, 0, 1);
       break;
     case CompareMode::split: {
-      draw_part(image.before, rect, 0, comparison.divider);
-      draw_part(image.texture, rect, comparison.divider, 1);
+      draw_part(draw, image.before, rect, 0, comparison.divider);
+      draw_part(draw, image.texture, rect, comparison.divider, 1);
       const float x = rect.low.x + comparison.divider * rect.width();
-      draw_divider(ui, rect, x);
-      draw_name(ui, name_of_before(comparison), x, rect.high.y, false);
-      draw_name(ui, "Current", x, rect.high.y, true);
+      draw_divider(ui, draw, rect, x);
+      draw_name(ui, draw, name_of_before(comparison), x, rect.high.y, false);
+      draw_name(ui, draw, "Current", x, rect.high.y, true);
       break;
     }
     case CompareMode::blink:
-      draw_blink(ui, rect, image);
+      draw_blink(ui, draw, rect, image);
       break;
     case CompareMode::side_by_side: {
-      const float middle = rect.low.x + std::floor(0.5F * rect.width());
-      draw_part(image.before, {rect.low, {middle, rect.high.y}}, 0, 1);
-      draw_part(image.texture, {{middle, rect.low.y}, rect.high}, 0, 1);
-      draw_name(ui, name_of_before(comparison), rect.low.x, rect.high.y, true);
-      draw_name(ui, "Current", middle, rect.high.y, true);
+      const Rect panes = beside_legend(ui, draw, rect, image);
+      const float width = std::floor(0.5F * panes.width());
+      const float middle = panes.low.x + width;
+      draw_part(draw, image.before, {panes.low, {middle, panes.high.y}}, 0, 1);
+      draw_part(draw, image.texture, {{middle, panes.low.y}, {middle + width, panes.high.y}}, 0, 1);
+      draw_name(ui, draw, name_of_before(comparison), panes.low.x, panes.high.y, true);
+      draw_name(ui, draw, "Current", middle, panes.high.y, true);
       break;
     }
     case CompareMode::ghost:
-      draw_part(image.texture, rect, 0, 1);
-      draw_part(image.before, rect, 0, 1);
-      draw_name(ui, "Lines: " + name_of_before(comparison), rect.low.x, rect.high.y, true);
+      draw_part(draw, image.texture, rect, 0, 1);
+      draw_part(draw, image.before, rect, 0, 1);
+      draw_name(ui, draw, "Lines: " + name_of_before(comparison), rect.low.x, rect.high.y, true);
       break;
   }
 }

@@ -154,6 +154,26 @@ const ImDrawData& Interface::draw_data() const {
   return *ImGui::GetDrawData();
 }
 
+const ImDrawData& Interface::compose(const model::Session& session, const FrameOptions& options) {
+  ImGui::SetCurrentContext(context_);
+  composed_ = std::make_unique<ImDrawList>(ImGui::GetDrawListSharedData());
+  composed_->_ResetForNewFrame();
+  const Rect all{{0, 0}, options.display};
+  composed_->PushClipRect(all.low, all.high);
+  composed_->PushTextureID(ImGui::GetIO().Fonts->TexID);
+  composed_->AddRectFilled(all.low, all.high, color::kBackdrop);
+  // What it notes of places, and of time for a blink, is not the window's.
+  UiState state = state_;
+  state.comparison.blink_seconds = 0;
+  Output nothing;
+  draw_pictures({session, state, nothing, fonts_, scale_}, *composed_, all, options.viewport);
+  composed_data_ = std::make_unique<ImDrawData>();
+  composed_list_ = composed_.get();
+  composed_data_->CmdLists = &composed_list_;
+  composed_data_->CmdListsCount = 1;
+  return *composed_data_;
+}
+
 Interface::Atlas Interface::atlas() {
   ImGui::SetCurrentContext(context_);
   Atlas atlas;

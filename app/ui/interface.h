@@ -9,6 +9,7 @@
 
 struct ImGuiContext;
 struct ImDrawData;
+struct ImDrawList;
 
 namespace isorelax::ui {
 
@@ -31,6 +32,9 @@ class Interface {
   Output frame(const model::Session& session, const FrameOptions& options);
   /// What frame() drew last.
   [[nodiscard]] const ImDrawData& draw_data() const;
+  /// The pictures of the viewport with their names, without controls, over a whole display: for a picture in
+  /// a file. Precondition: frame() at this scale. Good until the next call.
+  const ImDrawData& compose(const model::Session& session, const FrameOptions& options);
 
   [[nodiscard]] InputQueue& input() { return input_; }
   [[nodiscard]] UiState& state() { return state_; }
@@ -70,6 +74,9 @@ class Interface {
   std::filesystem::path dropped_;
   bool quit_asked_ = false;
   int settle_frames_ = 0;
+  std::unique_ptr<ImDrawList> composed_;
+  ImDrawList* composed_list_ = nullptr;
+  std::unique_ptr<ImDrawData> composed_data_;
 };
 
 }  // namespace isorelax::ui

@@ -16,7 +16,7 @@ struct ViewportImage {
   ImTextureID texture = nullptr;
   ImTextureID before = nullptr;       ///< of what it is compared with
   std::vector<ImTextureID> others{};  ///< of the runs beside the present one
-  ImTextureID legend = nullptr;       ///< of them all, at the right, kLegendStrip wide
+  ImTextureID legend = nullptr;       ///< of them all where there are panes, at the right, kLegendStrip wide
 };
 /// Points that the legend takes which several pictures share.
 inline constexpr float kLegendStrip = 124;
@@ -32,8 +32,8 @@ struct Grid {
 /// Moves the divider of a split with the pointer; whether the pointer has hold of it. Belongs behind the
 /// viewport's item.
 [[nodiscard]] bool drag_divider(const Ui& ui, const Rect& rect);
-/// Draws the pictures into the viewport as the comparison asks, and the divider of a split.
-void draw_pictures(const Ui& ui, const Rect& rect, const ViewportImage& image);
+/// Draws the pictures into a rectangle as the comparison asks, with their names and the divider of a split.
+void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image);
 /// The controls of the comparison, over the viewport.
 void draw_compare_bar(const Ui& ui, const Rect& rect);
 

@@ -184,7 +184,7 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
     const bool divides = drag_divider(ui, rect);
     if (!divides) navigate(ui, rect);
     pick(ui, rect, divides);
-    draw_pictures(ui, rect, image);
+    draw_pictures(ui, *ImGui::GetWindowDrawList(), rect, image);
     draw_selection(ui, rect);
     draw_moment(ui, rect);
   } else if (ui.session.activity != model::Activity::loading) {

@@ -208,6 +208,40 @@ TEST_F(EditorViews, BeforeAndAfterAreComparedOnOneCamera) {
   EXPECT_TRUE(same(part("viewport"), current, 0, current.width));
 }
 
+TEST_F(EditorViews, ASavedPictureShowsTheComparisonAsTheViewportDoes) {
+  open(folder.make_square());
+  run(5);
+  for (const ui::CompareMode mode :
+       {ui::CompareMode::split, ui::CompareMode::side_by_side, ui::CompareMode::ghost}) {
+    compare(mode);
+    const auto path = folder / "compared.png";
+    editor.ask(ui::SavePicture{path});
+    const Image saved = render::read_png(path);
+    settle();
+    const Image shown = part("viewport");
+    ASSERT_EQ(saved.width, shown.width);
+    ASSERT_EQ(saved.height, shown.height);
+    // All below the controls.
+    for (int y = 120; y < shown.height; ++y)
+      for (int x = 0; x < shown.width; ++x)
+        ASSERT_TRUE(std::ranges::equal(saved.at(x, y), shown.at(x, y))) << x << ", " << y;
+  }
+}
+
+TEST_F(EditorViews, SideBySideOneLegendStandsBesideBothMeshes) {
+  open(folder.make_square());
+  EXPECT_FALSE(editor.interface().state().rects.contains("pane-legend"));
+  compare(ui::CompareMode::side_by_side);
+  keep("compare_side_by_side_legend");
+  EXPECT_TRUE(editor.interface().state().rects.contains("pane-legend"));
+  const Image viewport = part("viewport");
+  const int pane = (viewport.width - static_cast<int>(ui::kLegendStrip)) / 2;
+  // Both panes are the same picture: nothing has been run.
+  for (int y = 200; y < viewport.height - 60; ++y)
+    for (int x = 0; x < pane; ++x)
+      ASSERT_TRUE(std::ranges::equal(viewport.at(x, y), viewport.at(pane + x, y))) << x << ", " << y;
+}
+
 TEST_F(EditorViews, ARememberedStateOrAnotherFileCanBeTheOther) {
   open(folder.make_square());
   run(3);
