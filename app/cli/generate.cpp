@@ -38,7 +38,8 @@ class GenerateCommand : public Command {
     return kinds_text() +
            "\nThe same options make the same mesh everywhere. Random squares and spheres have exactly the "
            "size\n"
-           "asked for, the other kinds come close. Closed kinds are watertight and face outward.\n"
+           "asked for, the other kinds come close, but a torus and a cylinder have at least 24 triangles, a\n"
+           "cube and a cone 12, a part 188. Closed kinds are watertight and face outward.\n"
            "--jitter moves vertices at random along their surface, by up to that share of an edge; what "
            "would\n"
            "squeeze a triangle under 8 degrees is cut back. The default is 0.45 for hexagonal and part, else "

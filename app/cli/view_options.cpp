@@ -155,7 +155,8 @@ void ViewOptions::declare_camera(CLI::App& app) {
 }
 
 void ViewOptions::declare(CLI::App& app) {
-  text(app, "--size", "WxH", "Picture size in pixels (default 1280x720), up to 8192x8192",
+  text(app, "--size", "WxH",
+       "Picture size in pixels (default 1280x720): sides up to 16384, no more than 8192x8192 in all",
        [](const std::string& given) -> Change {
          return [size = render::parse_size(given)](View& view) { view.size = size; };
        });
