@@ -103,10 +103,15 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->type_name("N");
 }
 
-ReferenceChoice parse_reference(Console& console, const std::string& text) {
+ReferenceChoice parse_reference(Console& console, const std::string& text, const TriangleMesh& mesh) {
   std::vector<std::string> notes;
   ReferenceChoice reference = read_reference(text, notes);
   for (const std::string& note : notes) console.message(note);
+  const auto* other = std::get_if<MeshReference>(&reference);
+  if (other != nullptr && other->positions.size() != mesh.positions.size())
+    throw MeshError(text + ": has " + std::to_string(other->positions.size()) +
+                    " vertices, the mesh that it is to be a reference for " +
+                    std::to_string(mesh.positions.size()));
   return reference;
 }
 
@@ -146,7 +151,7 @@ ProblemOptions parse_problem(Console& console, const ProblemSpec& spec, const Tr
   options.features = parse_features(spec.features);
   options.surface = parse_surface(spec.surface);
   options.features.boundary_turn_deg = spec.boundary_corner_deg;
-  options.reference = parse_reference(console, spec.reference);
+  options.reference = parse_reference(console, spec.reference, mesh);
   if (spec.size_field == "curvature") {
     options.reference = CurvatureReference{options.features};
   } else if (!spec.size_field.empty()) {

@@ -43,8 +43,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec);
 [[nodiscard]] ProblemOptions parse_problem(Console& console, const ProblemSpec& spec,
                                            const TriangleMesh& mesh);
 
-/// equilateral | equilateral:EDGE | initial | FILE.
-[[nodiscard]] ReferenceChoice parse_reference(Console& console, const std::string& text);
+/// equilateral | equilateral:EDGE | initial | FILE, for a mesh. Throws UsageError, InputError, MeshError: the
+/// file has other vertices than the mesh.
+[[nodiscard]] ReferenceChoice parse_reference(Console& console, const std::string& text,
+                                              const TriangleMesh& mesh);
 
 /// auto | none | DEGREES (the ridge angle).
 [[nodiscard]] FeatureOptions parse_features(const std::string& text);

@@ -138,7 +138,7 @@ class QualityCommand : public Command {
     QualityReport report = measure_quality(mesh);
     std::optional<ReferenceReport> against;
     if (!reference_.empty()) {
-      const ReferenceChoice choice = parse_reference(console, reference_);
+      const ReferenceChoice choice = parse_reference(console, reference_, mesh);
       against = measure_against(make_reference(choice, mesh.positions, mesh.triangles), mesh);
       report.shape_mean = against->shape_mean;
       report.shape_max = against->shape_max;

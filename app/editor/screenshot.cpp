@@ -6,9 +6,12 @@
 namespace isorelax::editor {
 namespace {
 
-void throw_on_error(const model::Session& session) {
-  for (const model::Message& message : session.messages)
-    if (message.kind == model::MessageKind::error) throw MeshError(message.text);
+void throw_on_error(const model::Session& session, const std::string& file) {
+  for (const model::Message& message : session.messages) {
+    if (message.kind != model::MessageKind::error) continue;
+    const bool named = message.text.find(file) != std::string::npos;
+    throw MeshError(named ? message.text : file + ": " + message.text);
+  }
 }
 
 }  // namespace
@@ -17,10 +20,11 @@ render::Image take_screenshot(const ScreenshotOptions& options) {
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
   Editor editor(context->loader(), Motion::instant, options.read_plan);
   model::Session& session = editor.session();
+  const std::string file = options.file ? options.file->string() : std::string();
   if (options.file) {
     model::execute(session, model::OpenFile{*options.file});
     model::finish(session);
-    throw_on_error(session);
+    throw_on_error(session, file);
   }
   if (options.iterations > 0) {
     model::SmoothingSettings settings = session.smoothing;
@@ -28,7 +32,7 @@ render::Image take_screenshot(const ScreenshotOptions& options) {
     model::execute(session, model::SetSmoothing{settings, "Iterations"});
     model::execute(session, model::Run{});
     model::finish(session);
-    throw_on_error(session);
+    throw_on_error(session, file);
   }
   // The interface needs a few frames to settle its sizes.
   for (int k = 0; k < 4; ++k) editor.frame({.size = options.size, .scale = options.scale, .time = 0.02 * k});

@@ -38,10 +38,15 @@ void require_sense(const View& view, const Exhibits& exhibits) {
     throw UsageError(
         "differences and the filter of worse triangles need colours by angle, max-angle, area or energy");
   if (!needs_start) return;
-  for (const TriangleMesh* mesh : exhibits.meshes)
-    if (mesh->triangles != exhibits.against->triangles ||
-        mesh->positions.size() != exhibits.against->positions.size())
-      throw MeshError("a mesh has other vertices or triangles than the one it is shown against");
+  for (std::size_t i = 0; i < exhibits.meshes.size(); ++i) {
+    const TriangleMesh& mesh = *exhibits.meshes[i];
+    if (mesh.triangles == exhibits.against->triangles &&
+        mesh.positions.size() == exhibits.against->positions.size())
+      continue;
+    const std::string against = view.against.empty() ? "the mesh" : view.against;
+    throw MeshError((i < view.meshes.size() ? view.meshes[i] : "a mesh") +
+                    ": has other vertices or triangles than " + against + " that it is shown against");
+  }
 }
 
 std::vector<double> values_of(const View& view, const TriangleMesh& mesh, const TriangleMesh* against) {

@@ -275,6 +275,44 @@ TEST(QualityCommand, MeasuresShapeAndSizeAgainstAReference) {
   EXPECT_EQ(run_program("quality " + mesh + " --reference equilateral:-1").status, 2);
 }
 
+TEST(Errors, NameTheFileAtFault) {
+  const Workspace workspace;
+  const std::string large = workspace.path("large.off");
+  const std::string small = workspace.path("small.off");
+  ASSERT_EQ(run_program("generate random --triangles 100 -o " + large).status, 0);
+  ASSERT_EQ(run_program("generate random --triangles 60 -o " + small).status, 0);
+  const auto complaint = [](const std::string& arguments) {
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.status, 3) << arguments;
+    return outcome.err;
+  };
+  for (const std::string& command :
+       {"smooth " + large + " -o " + workspace.path("o.off"), "quality " + large})
+    EXPECT_NE(complaint(command + " --reference " + small).find("error: " + small + ": has "),
+              std::string::npos);
+  const std::string picture = workspace.path("o.png");
+  const std::string shown =
+      complaint("render " + large + " --against " + small + " --difference -o " + picture);
+  EXPECT_NE(shown.find(large + ": has other vertices"), std::string::npos) << shown;
+  EXPECT_NE(shown.find(small), std::string::npos) << shown;
+  const std::string flat = workspace.write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+  const std::string viewed = complaint("view " + flat + " --after-iterations 3 --screenshot " + picture);
+  EXPECT_NE(viewed.find("error: " + flat + ": "), std::string::npos) << viewed;
+}
+
+TEST(GenerateCommand, HelpTellsTheLeastOfEachKind) {
+  const Workspace workspace;
+  const std::string help = run_program("generate --help").out;
+  EXPECT_NE(help.find("a torus and a cylinder have at least 24 triangles"), std::string::npos);
+  for (const auto& [kind, least] : {std::pair("torus", 24), std::pair("cylinder", 24), std::pair("cube", 12),
+                                    std::pair("cone", 12), std::pair("part", 188)}) {
+    const std::string mesh = workspace.path(std::string(kind) + ".off");
+    const std::string made = "generate " + std::string(kind) + " --triangles 1 -o " + mesh;
+    const Outcome outcome = run_program(made);
+    EXPECT_NE(outcome.err.find(" " + std::to_string(least) + " triangles"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(InfoCommand, NamesEveryFlawWithItsIds) {
   const Workspace workspace;
   const std::string mesh = workspace.write("f.off", kFlawed);
