@@ -1,10 +1,20 @@
 #include "editor/screenshot.h"
 
+#include <cmath>
+#include <string>
+
 #include "mesh/error.h"
 #include "render/offscreen.h"
 
 namespace isorelax::editor {
 namespace {
+
+/// In points: the bars, and something of the mesh between the panels.
+constexpr render::PictureSize kLeastRoom{160, 120};
+
+std::string size_text(render::PictureSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 void throw_on_error(const model::Session& session, const std::string& file) {
   for (const model::Message& message : session.messages) {
@@ -16,7 +26,18 @@ void throw_on_error(const model::Session& session, const std::string& file) {
 
 }  // namespace
 
+void require_room(render::PictureSize size, float scale) {
+  const auto pixels = [&](int points) {
+    return static_cast<int>(std::ceil(static_cast<float>(points) * scale));
+  };
+  const render::PictureSize least{pixels(kLeastRoom.width), pixels(kLeastRoom.height)};
+  if (size.width < least.width || size.height < least.height)
+    throw UsageError("the editor does not fit into " + size_text(size) + " pixels: the smallest size is " +
+                     size_text(least));
+}
+
 render::Image take_screenshot(const ScreenshotOptions& options) {
+  require_room(options.size, options.scale);
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
   Editor editor(context->loader(), Motion::instant, options.read_plan);
   model::Session& session = editor.session();

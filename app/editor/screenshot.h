@@ -16,8 +16,11 @@ struct ScreenshotOptions {
   PlanReader read_plan{};   ///< for recorded runs; as the Editor's
 };
 
-/// A picture of the whole editor, drawn without a display. Throws Error when the file cannot be read, a run
-/// fails or there is no OpenGL.
+/// Throws UsageError, naming the smallest size, where the editor cannot be drawn in this one.
+void require_room(render::PictureSize size, float scale);
+
+/// A picture of the whole editor, drawn without a display. Throws UsageError for a size that is too small,
+/// Error when the file cannot be read, a run fails or there is no OpenGL.
 [[nodiscard]] render::Image take_screenshot(const ScreenshotOptions& options);
 
 }  // namespace isorelax::editor

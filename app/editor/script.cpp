@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "editor/editor.h"
+#include "editor/screenshot.h"
 #include "editor/script_words.h"
 #include "mesh/error.h"
 #include "model/motion_jobs.h"
@@ -72,6 +73,7 @@ class Player {
   ScriptResult play() {
     std::ifstream file(options_.file);
     if (!file) throw InputError(options_.file.string(), "", "cannot be read");
+    require_room(size_, options_.scale);
     frames(2);
     std::string line;
     while (std::getline(file, line)) {
@@ -159,7 +161,11 @@ class Player {
     result_.pictures.push_back(pictures_ / name);
   }
 
-  void resize(Words words) { size_ = render::parse_size(words[1]); }
+  void resize(Words words) {
+    const render::PictureSize size = render::parse_size(words[1]);
+    require_room(size, options_.scale);
+    size_ = size;
+  }
 
   void camera(Words words) {
     if (words.size() > 3)

@@ -14,6 +14,7 @@ constexpr float kSmallestViewport = 160;
 // A thin invisible handle between a panel and the viewport; `direction` is the sign of growth to the right.
 void draw_splitter(const Ui& ui, const char* name, float x, const Rect& beside, float direction,
                    float& width) {
+  if (beside.height() < 1) return;
   const float half = ui.px(3);
   ImGui::SetNextWindowPos({x - half, beside.low.y});
   ImGui::SetNextWindowSize({2 * half, beside.height()});

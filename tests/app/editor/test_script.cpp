@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "app/editor/editor_fixture.h"
+#include "editor/screenshot.h"
 #include "editor/script.h"
 #include "editor/script_words.h"
 #include "mesh/error.h"
@@ -70,6 +71,19 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   EXPECT_NE(complaint("open 'square.off\n").find("quote"), std::string::npos);
   EXPECT_THROW((void)run_script({.file = folder / "none.script", .pictures = {}, .size = kSize, .scale = 1}),
                InputError);
+}
+
+TEST_F(ScriptTest, ASizeThatIsTooSmallIsRefusedWithTheSmallest) {
+  (void)folder.make_square();
+  for (const char* size : {"40x40", "159x120", "160x119", "1x1"})
+    EXPECT_NE(complaint("open square.off\nsize " + std::string(size) + "\n").find("smallest size is 160x120"),
+              std::string::npos)
+        << size;
+  EXPECT_EQ(complaint("open square.off\nsize 160x120\ntab inspect\nvertex 3\nscreenshot a.png\n"), "");
+  EXPECT_THROW((void)take_screenshot({.file = {}, .size = {100, 48}}), UsageError);
+  // A window manager may make a window smaller than it is allowed to be.
+  for (const render::PictureSize size : {render::PictureSize{1, 1}, {120, 60}, {640, 78}})
+    editor.frame({.size = size, .scale = 1, .time = time += tick});
 }
 
 TEST_F(ScriptTest, WhatWasDoneByHandIsWrittenDownAndDoneAgain) {
