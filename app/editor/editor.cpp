@@ -10,11 +10,9 @@
 #include "editor/embedded.h"
 #include "editor/session_view.h"
 #include "editor/step_overlay.h"
-#include "io/atomic_file.h"
 #include "mesh/error.h"
 #include "render/embedded.h"
 #include "render/overlay.h"
-#include "view/picture.h"
 
 namespace isorelax::editor {
 namespace {
@@ -249,17 +247,20 @@ std::array<float, 2> Editor::in_pane(float x, float y) const {
   return {x - width * std::floor(x / width), y - height * std::floor(y / height)};
 }
 
+// What is under a pixel of a picture as it is drawn, but with all triangles: their numbers are asked for.
+std::optional<render::Pick> Editor::pick_at(const Shown& shown, int x, int y) {
+  view::View view = present_view();
+  view.only_worse_than.reset();
+  current_.drawn = false;
+  return current_.renderer.pick(current_.scene.make(shown, view), camera_, pane(), x, y);
+}
+
 void Editor::pick(float x, float y) {
   if (!session_.current || !current_.drawn || x >= static_cast<float>(viewport_.width - legend_strip()))
     return;
   const auto [at_x, at_y] = in_pane(x, y);
   const Shown shown = shown_now();
-  // As it is drawn, but with all triangles: their numbers are asked for.
-  view::View view = present_view();
-  view.only_worse_than.reset();
-  const auto found = current_.renderer.pick(current_.scene.make(shown, view), camera_, pane(),
-                                            static_cast<int>(at_x), static_cast<int>(at_y));
-  current_.drawn = false;
+  const auto found = pick_at(shown, static_cast<int>(at_x), static_cast<int>(at_y));
   if (!found) {
     act(model::ClearSelection{});
     return;
@@ -284,15 +285,6 @@ void Editor::act(const model::Command& command) {
 void Editor::look(const std::string& spec) {
   if (session_.current)
     camera_ = render::parse_camera(spec, session_.current->positions(), pane(), fit_options());
-}
-
-void Editor::save_script(const std::filesystem::path& path) {
-  try {
-    write_file_atomically(path, script());
-    say(model::MessageKind::info, "Saved " + path.string());
-  } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
-  }
 }
 
 void Editor::say(model::MessageKind kind, const std::string& text) {
@@ -347,56 +339,6 @@ void Editor::carry_out_request(const ui::Request& request) {
     partner_.read(other->path);
   } else {
     quit_ = true;
-  }
-}
-
-// The picture of one mesh carries its view: `isorelax render --like` it gives the same bytes. What stands
-// beside or over another state is taken as the viewport shows it, and no view says how to make that again.
-void Editor::save_picture(const std::filesystem::path& path) {
-  if (!session_.current) return;
-  try {
-    draw_pictures();
-    if (shows_others() || before_.drawn) {
-      const ImVec2 size{static_cast<float>(viewport_.width), static_cast<float>(viewport_.height)};
-      painter_.paint(
-          interface_,
-          interface_.compose(session_, {.display = size, .scale = scale_, .viewport = viewport_image()}),
-          viewport_);
-      render::write_png(path, painter_.read_back());
-    } else {
-      const view::View view = present_view();
-      render::Image image = current_.renderer.read_back();
-      if (view.transparent) unmultiply(image);
-      view::write_picture(path, {image, view});
-    }
-    say(model::MessageKind::info, "Saved " + path.string());
-  } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
-  }
-}
-
-void Editor::copy_view() {
-  if (!session_.current) return;
-  ImGui::SetCurrentContext(&interface_.context());
-  ImGui::SetClipboardText(view::to_json(present_view()).c_str());
-  say(model::MessageKind::info, "Copied the view");
-}
-
-void Editor::paste_view(const std::string& text) {
-  if (!session_.current) return;
-  try {
-    view::View view = view::parse_view(text, "The clipboard");
-    if (const auto* spec = std::get_if<std::string>(&view.camera))
-      view.camera = render::parse_camera(*spec, session_.current->positions(), pane(), fit_options());
-    flight_.reset();
-    camera_ = std::get<render::Camera>(view.camera);
-    act(model::SetView{settings_of(view, session_.view)});
-    const bool other_size = view.size != pane();
-    const std::string size = std::to_string(view.size.width) + " x " + std::to_string(view.size.height);
-    base_ = std::move(view);
-    say(model::MessageKind::info, "Pasted the view" + (other_size ? ", of a picture of " + size : ""));
-  } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
   }
 }
 

@@ -44,6 +44,8 @@ class Editor {
   /// Takes a camera, or the one that a text means for the mesh (render::parse_camera). Throws UsageError.
   void look(const render::Camera& camera) { camera_ = camera; }
   void look(const std::string& spec);
+  /// Whether the selected vertex or triangle is in the picture and nothing hides it.
+  [[nodiscard]] bool sees_selection();
   /// What was done so far, as a script (script.h).
   [[nodiscard]] std::string script() const { return log_.text(camera_, interface_.state()); }
 
@@ -106,6 +108,7 @@ class Editor {
   void draw_pictures();
   void draw_others();
   void draw_legend();
+  [[nodiscard]] std::optional<render::Pick> pick_at(const Shown& shown, int x, int y);
   void pick(float x, float y);
   [[nodiscard]] std::array<float, 2> in_pane(float x, float y) const;
   void draw(KeptPicture& picture, const Shown& shown, const view::View& view);

@@ -70,6 +70,34 @@ void Editor::move_camera(double time) {
   flight_.reset();
 }
 
+bool Editor::sees_selection() {
+  if (!session_.current || !(session_.selected_vertex || session_.selected_triangle)) return false;
+  const Shown shown = shown_now();
+  const auto x = shown.state->positions();
+  Vec3 point;
+  if (session_.selected_vertex) {
+    point = x[*session_.selected_vertex];
+  } else {
+    const Triangle& t = session_.document->mesh().triangles[*session_.selected_triangle];
+    point = (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
+  }
+  const render::PictureSize size = pane();
+  const render::MeshFrame frame{point, camera_.extent};
+  const glm::vec4 clip =
+      render::view_projection(camera_, size, frame, render::bounds_of(x)) * glm::vec4(0, 0, 0, 1);
+  if (!(clip.w > 0)) return false;
+  const auto column =
+      static_cast<int>(std::floor((0.5F + 0.5F * clip.x / clip.w) * static_cast<float>(size.width)));
+  const auto row =
+      static_cast<int>(std::floor((0.5F - 0.5F * clip.y / clip.w) * static_cast<float>(size.height)));
+  if (column < 0 || row < 0 || column >= size.width || row >= size.height) return false;
+  const auto found = pick_at(shown, column, row);
+  if (!found) return false;
+  if (session_.selected_triangle) return found->triangle == *session_.selected_triangle;
+  const Triangle& t = session_.document->mesh().triangles[found->triangle];
+  return std::ranges::find(t, *session_.selected_vertex) != t.end();
+}
+
 void Editor::fly_to(const render::Camera& to) {
   if (motion_ == Motion::instant)
     camera_ = to;

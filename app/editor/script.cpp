@@ -10,6 +10,7 @@
 #include "editor/editor.h"
 #include "editor/screenshot.h"
 #include "editor/script_words.h"
+#include "editor/view_words.h"
 #include "mesh/error.h"
 #include "model/motion_jobs.h"
 #include "render/offscreen.h"
@@ -78,13 +79,18 @@ class Player {
     std::string line;
     while (std::getline(file, line)) {
       ++number_;
+      const std::string at = options_.file.string() + ": line " + std::to_string(number_);
       try {
         const std::vector<std::string> words = split_words(line);
         if (!words.empty()) obey(words);
+        look_for_errors(words);
       } catch (const UsageError& error) {
-        throw InputError(options_.file.string(), "line " + std::to_string(number_), error.what());
+        throw UsageError(at + ": " + error.what());
+      } catch (const OutputError& error) {
+        throw OutputError(at, error.what());
+      } catch (const Error& error) {
+        throw InputError(at, "", error.what());
       }
-      look_for_errors();
     }
     return std::move(result_);
   }
@@ -105,12 +111,16 @@ class Player {
     frames(2);
   }
 
-  void look_for_errors() {
+  // What the editor tells its user ends a script.
+  void look_for_errors(Words words) {
+    constexpr std::array<std::string_view, 3> kWriters{"save", "save-trace", "picture"};
     for (const model::Message& message : editor_.session().messages) {
       if (message.number <= last_message_) continue;
       last_message_ = message.number;
-      if (message.kind == model::MessageKind::error)
-        throw InputError(options_.file.string(), "line " + std::to_string(number_), message.text);
+      if (message.kind != model::MessageKind::error) continue;
+      if (!words.empty() && std::ranges::find(kWriters, words.front()) != kWriters.end())
+        throw OutputError(words.front(), message.text);
+      throw Error(message.text);
     }
   }
 
@@ -122,12 +132,20 @@ class Player {
   void obey(Words words) {
     if (const auto command = parse_line(words, editor_.session(), folder_)) {
       execute(*command);
+      if (words.front() == "vertex" || words.front() == "triangle") show_selection();
       return;
     }
     const auto found = std::ranges::find(handlers_, words.front(), &Handler::name);
     if (found == handlers_.end()) throw UsageError("\"" + words.front() + "\" is no command");
     if (words.size() <= found->least) throw UsageError(words.front() + ": something is missing");
     (this->*found->act)(words);
+    settle();
+  }
+
+  // What a click on it does; and what is clicked on can be seen.
+  void show_selection() {
+    editor_.interface().state().tab = ui::SideTab::inspect;
+    if (!editor_.sees_selection()) editor_.ask(ui::FlyToSelection{});
     settle();
   }
 

@@ -26,8 +26,9 @@ struct ScriptResult {
 };
 
 /// Does what a script says, in an editor without a display: one command in a line, # begins a comment. After
-/// each line it waits until all is done. Throws InputError, with the line, for one that is not understood or
-/// cannot be done; OutputError; Error.
+/// each line it waits until all is done. Throws, with the line, UsageError for one that is not understood or
+/// asks for what is not there, OutputError for what cannot be written, InputError for what else cannot be
+/// done.
 [[nodiscard]] ScriptResult run_script(const ScriptOptions& options);
 
 /// All commands of scripts, a line each: for --help.

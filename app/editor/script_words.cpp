@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 
 #include "editor/motion_words.h"
+#include "editor/view_words.h"
+#include "editor/word_values.h"
 #include "mesh/error.h"
 #include "model/arguments.h"
 
@@ -21,11 +22,11 @@ constexpr std::array kModelWords{
     ScriptWord{"add-trace FILE", "a recorded run beside those that are there"},
     ScriptWord{"set OPTION VALUE ...", "settings, as for isorelax smooth: set --mu 0.5 --solver newton"},
     ScriptWord{"run [N]", "as many iterations as set, or N"},
-    ScriptWord{"step", "one iteration on"},
+    ScriptWord{"step, step-back", "one iteration on; one back"},
     ScriptWord{"seek ITERATION [RUN]", "on the timeline; runs count from 0"},
     ScriptWord{"stage NAME [ROUND]", "gradient, tangent, proposed, control, moved, or off"},
     ScriptWord{"next-stage, previous-stage", "over the ends of iterations"},
-    ScriptWord{"vertex ID, triangle ID", "select it"},
+    ScriptWord{"vertex ID, triangle ID", "select it, open the inspector, fly there if it is out of sight"},
     ScriptWord{"worst-by NUMBER, next-worst", "0: what the colours say, ..., in the order of the menu"},
     ScriptWord{"limited NAME", "mark what was limited by: pinned, corner, ..., or none"},
     ScriptWord{"clear", "select nothing"},
@@ -38,7 +39,7 @@ constexpr std::array kModelWords{
     ScriptWord{"teach", "the three methods, side by side"},
     ScriptWord{"memory MB", "for full records of steps"},
     ScriptWord{"view KEY=VALUE ...",
-               "color=none|angle|max-angle|area|energy, range=run|current, wire=, legend=, "
+               "color=none|angle|max-angle|area|energy, range=run|current|LO:HI, wire=, legend=, "
                "reasons=, smooth=, reversed=on|off, map=NAME"},
     ScriptWord{"reset, undo, redo", ""},
     ScriptWord{"motion [off]", "Run moves the surface; off: it smooths again"},
@@ -48,51 +49,13 @@ constexpr std::array kModelWords{
     ScriptWord{"motion sphere [SPEC]", "open a sphere, N[:RADIUS[:X,Y,Z]]; none: the paper's"},
 };
 
-unsigned to_number(const std::string& word) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    throw UsageError("expected a number, found \"" + word + "\"");
-  return value;
-}
-
-double to_real(const std::string& word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    throw UsageError("expected a number, found \"" + word + "\"");
-  return value;
-}
-
-std::string real_text(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
-void require(Words words, std::size_t least, std::size_t most) {
-  if (words.size() < least + 1) throw UsageError(words.front() + ": something is missing");
-  if (words.size() > most + 1) throw UsageError(words.front() + ": \"" + words[most + 1] + "\" is too much");
-}
-
 constexpr std::array<std::string_view, 5> kStageNames{"gradient", "tangent", "proposed", "control", "moved"};
-constexpr std::array<std::string_view, model::kColorings> kColorNames{"none", "angle", "max-angle", "area",
-                                                                      "energy"};
-
-template <std::size_t N>
-std::size_t index_of(const std::array<std::string_view, N>& names, const std::string& word) {
-  const auto found = std::ranges::find(names, word);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  std::string known;
-  for (const std::string_view name : names) known += (known.empty() ? "" : ", ") + std::string(name);
-  throw UsageError("\"" + word + "\": expected one of " + known);
-}
 
 model::SetStage to_stage(Words words) {
   require(words, 1, 2);
   if (words[1] == "off") return {};
   model::Stage stage{static_cast<model::StageKind>(index_of(kStageNames, words[1]))};
-  if (words.size() > 2) stage.pass = std::max(1U, to_number(words[2])) - 1;
+  if (words.size() > 2) stage.pass = std::max(1U, to_number<unsigned>(words[2])) - 1;
   return {stage};
 }
 
@@ -102,49 +65,6 @@ model::SelectLimited to_limited(Words words) {
     if (limit_name(static_cast<Limit>(1U << bit)) == words[1]) return {bit};
   if (words[1] != "none") throw UsageError("\"" + words[1] + "\" is nothing that limits a vertex");
   return {};
-}
-
-bool to_switch(const std::string& value) {
-  if (value != "on" && value != "off") throw UsageError("expected on or off, found \"" + value + "\"");
-  return value == "on";
-}
-
-model::SetView to_view(Words words, model::ViewSettings view) {
-  for (const std::string& word : words.subspan(1)) {
-    const std::size_t equal = std::min(word.find('='), word.size());
-    const std::string key = word.substr(0, equal);
-    const std::string value = word.substr(std::min(equal + 1, word.size()));
-    if (key == "color")
-      view.coloring = static_cast<model::Coloring>(index_of(kColorNames, value));
-    else if (key == "range")
-      view.range_mode = value == "current" ? model::RangeMode::current : model::RangeMode::run;
-    else if (key == "map")
-      view.color_map = value;
-    else if (key == "wire")
-      view.wire = to_switch(value);
-    else if (key == "legend")
-      view.legend = to_switch(value);
-    else if (key == "reasons")
-      view.reasons = to_switch(value);
-    else if (key == "reversed")
-      view.reversed = to_switch(value);
-    else if (key == "smooth")
-      view.shading = to_switch(value) ? model::Shading::smooth : model::Shading::flat;
-    else
-      throw UsageError("\"" + key + "\" is nothing that a view has");
-  }
-  return {view};
-}
-
-std::string view_line(const model::ViewSettings& view) {
-  const auto word = [](bool on) { return on ? "on" : "off"; };
-  std::string line = "view color=" + std::string(kColorNames.at(static_cast<std::size_t>(view.coloring))) +
-                     " range=" + (view.range_mode == model::RangeMode::current ? "current" : "run") +
-                     " wire=" + word(view.wire) + " legend=" + word(view.legend) +
-                     " reasons=" + word(view.reasons) + " reversed=" + word(view.reversed) +
-                     " smooth=" + word(view.shading == model::Shading::smooth);
-  if (!view.color_map.empty()) line += " map=" + view.color_map;
-  return line;
 }
 
 model::SetBreakpoints with_breakpoint(Words words, const model::Session& session, model::BreakAction action) {
@@ -191,7 +111,7 @@ struct ToLine {
     for (const std::string& word : model::to_words(c.settings)) line += " " + quote_word(word);
     return line;
   }
-  std::string operator()(const model::SetView& c) const { return view_line(c.view); }
+  std::string operator()(const model::SetView& c) const { return editor::to_line(c); }
   std::string operator()(const model::Run&) const { return "run"; }
   std::string operator()(const model::Step&) const { return "step"; }
   std::string operator()(const model::StepBack&) const { return "step-back"; }
@@ -268,31 +188,53 @@ Parser with_path() {
   };
 }
 
+/// A number that must be below a count of what there is.
+unsigned to_number_of(const std::string& word, const std::string& what, std::size_t count) {
+  const unsigned value = to_number<unsigned>(word);
+  if (count == 0) throw UsageError("there is no " + what + " " + word + ": there is none at all");
+  if (value >= count)
+    throw UsageError("there is no " + what + " " + word + ": the last is " + std::to_string(count - 1));
+  return value;
+}
+
 template <typename C>
-Parser with_number() {
-  return [](Words words, const model::Session&, const std::filesystem::path&) -> model::Command {
-    require(words, 1, 1);
-    return C{to_number(words[1])};
-  };
+model::Command of_vertex(Words words, const model::Session& session) {
+  require(words, 1, 1);
+  return C{
+      to_number_of(words[1], "vertex", session.document ? session.document->mesh().positions.size() : 0)};
+}
+
+model::Command of_triangle(Words words, const model::Session& session) {
+  require(words, 1, 1);
+  return model::SelectTriangle{
+      to_number_of(words[1], "triangle", session.document ? session.document->mesh().triangles.size() : 0)};
 }
 
 model::Command to_settings(Words words, const model::Session& session) {
-  const auto settings = model::from_words(words.subspan(1), session.smoothing);
-  if (!settings) throw UsageError("set: an option or a value is not one of the editor's settings");
-  return model::SetSmoothing{*settings, "Settings"};
+  std::vector<std::string> unknown;
+  const model::SmoothingSettings settings =
+      model::nearest_settings(words.subspan(1), session.smoothing, unknown);
+  if (!unknown.empty())
+    throw UsageError("set: \"" + unknown.front() + "\": no setting of the editor, or no value for it");
+  return model::SetSmoothing{settings, "Settings"};
 }
 
-model::Command to_seek(Words words) {
+model::Command to_seek(Words words, const model::Session& session) {
   require(words, 1, 2);
-  model::Seek seek{to_number(words[1]), {}};
-  if (words.size() > 2) seek.branch = to_number(words[2]);
+  const auto& branches = session.timeline.branches;
+  model::Seek seek;
+  if (words.size() > 2) seek.branch = to_number_of(words[2], "run", branches.size());
+  const unsigned branch = seek.branch.value_or(session.timeline.cursor.branch);
+  const std::size_t last = branches.empty() ? 0 : branches[branch].tip();
+  seek.iteration = to_number_of(words[1], "iteration", last + 1);
   return seek;
 }
 
-std::vector<unsigned> numbers_after(Words words) {
-  std::vector<unsigned> numbers;
-  for (const std::string& word : words.subspan(1)) numbers.push_back(to_number(word));
-  return numbers;
+std::vector<unsigned> to_runs(Words words, const model::Session& session) {
+  std::vector<unsigned> runs;
+  for (const std::string& word : words.subspan(1))
+    runs.push_back(to_number_of(word, "run", session.timeline.branches.size()));
+  return runs;
 }
 
 const std::vector<std::pair<std::string_view, Parser>>& parsers() {
@@ -311,16 +253,17 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
       {"next-worst", plain<model::SelectNextWorst>()},
       {"clear", plain<model::ClearSelection>()},
       {"teach", plain<model::Teach>()},
-      {"vertex", with_number<model::SelectVertex>()},
-      {"triangle", with_number<model::SelectTriangle>()},
-      {"pin", with_number<model::TogglePin>()},
+      {"vertex", [](Words w, const S& s, const path&) { return of_vertex<model::SelectVertex>(w, s); }},
+      {"triangle", [](Words w, const S& s, const path&) { return of_triangle(w, s); }},
+      {"pin", [](Words w, const S& s, const path&) { return of_vertex<model::TogglePin>(w, s); }},
       {"set", [](Words w, const S& s, const path&) { return to_settings(w, s); }},
-      {"seek", [](Words w, const S&, const path&) { return to_seek(w); }},
+      {"seek", [](Words w, const S& s, const path&) { return to_seek(w, s); }},
       {"stage", [](Words w, const S&, const path&) -> model::Command { return to_stage(w); }},
       {"next-stage", [](Words, const S&, const path&) -> model::Command { return model::StepStage{1}; }},
       {"previous-stage", [](Words, const S&, const path&) -> model::Command { return model::StepStage{-1}; }},
       {"limited", [](Words w, const S&, const path&) -> model::Command { return to_limited(w); }},
-      {"view", [](Words w, const S& s, const path&) -> model::Command { return to_view(w, s.view); }},
+      {"view",
+       [](Words w, const S& s, const path&) -> model::Command { return parse_view_words(w, s.view); }},
       {"break",
        [](Words w, const S& s, const path&) -> model::Command {
          return with_breakpoint(w, s, model::BreakAction::stop);
@@ -331,25 +274,24 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
        }},
       {"no-breaks", [](Words, const S&, const path&) -> model::Command { return model::SetBreakpoints{}; }},
       {"beside",
-       [](Words w, const S&, const path&) -> model::Command {
-         return model::ShowBranches{numbers_after(w)};
-       }},
+       [](Words w, const S& s, const path&) -> model::Command { return model::ShowBranches{to_runs(w, s)}; }},
       {"compare",
-       [](Words w, const S&, const path&) -> model::Command {
+       [](Words w, const S& s, const path&) -> model::Command {
          require(w, 2, 2);
-         return model::CompareBranches{to_number(w[1]), to_number(w[2])};
+         const std::vector<unsigned> runs = to_runs(w, s);
+         return model::CompareBranches{runs[0], runs[1]};
        }},
       {"worst-by",
        [](Words w, const S&, const path&) -> model::Command {
          require(w, 1, 1);
-         const unsigned by = to_number(w[1]);
+         const unsigned by = to_number<unsigned>(w[1]);
          if (by >= model::kWorstBy) throw UsageError("worst-by: there is no " + w[1]);
          return model::SetWorstBy{static_cast<model::WorstBy>(by)};
        }},
       {"memory",
        [](Words w, const S&, const path&) -> model::Command {
          require(w, 1, 1);
-         return model::SetStepBudget{std::size_t{to_number(w[1])} << 20U};
+         return model::SetStepBudget{std::size_t{to_number<unsigned>(w[1])} << 20U};
        }},
   };
   return kParsers;
@@ -401,31 +343,6 @@ std::optional<model::Command> parse_line(Words words, const model::Session& sess
   for (const auto& [name, parser] : parsers())
     if (name == words.front()) return parser(words, session, folder);
   return std::nullopt;
-}
-
-std::string to_line(const render::Camera& camera) {
-  std::string line = "camera";
-  for (const double x : {camera.target.x(), camera.target.y(), camera.target.z(), camera.azimuth_deg,
-                         camera.elevation_deg, camera.extent})
-    line += " " + real_text(x);
-  line += camera.up == render::UpAxis::y ? " y" : " z";
-  return line + (camera.projection == render::Projection::perspective ? " perspective" : " orthographic");
-}
-
-render::Camera parse_camera_words(Words words) {
-  require(words, 8, 8);
-  render::Camera camera;
-  camera.target = {to_real(words[1]), to_real(words[2]), to_real(words[3])};
-  camera.azimuth_deg = to_real(words[4]);
-  camera.elevation_deg = to_real(words[5]);
-  camera.extent = to_real(words[6]);
-  if (!(camera.extent > 0)) throw UsageError("camera: the extent must be positive");
-  constexpr std::array<std::string_view, 2> kUp{"y", "z"};
-  constexpr std::array<std::string_view, 2> kProjection{"perspective", "orthographic"};
-  camera.up = index_of(kUp, words[7]) == 0 ? render::UpAxis::y : render::UpAxis::z;
-  camera.projection = index_of(kProjection, words[8]) == 0 ? render::Projection::perspective
-                                                           : render::Projection::orthographic;
-  return camera;
 }
 
 std::span<const ScriptWord> model_words() {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "model/command.h"
-#include "render/camera.h"
 
 namespace isorelax::editor {
 
@@ -24,11 +23,6 @@ namespace isorelax::editor {
 [[nodiscard]] std::optional<model::Command> parse_line(std::span<const std::string> words,
                                                        const model::Session& session,
                                                        const std::filesystem::path& folder);
-
-/// "camera X Y Z AZIMUTH ELEVATION EXTENT y|z perspective|orthographic".
-[[nodiscard]] std::string to_line(const render::Camera& camera);
-/// Throws UsageError.
-[[nodiscard]] render::Camera parse_camera_words(std::span<const std::string> words);
 
 struct ScriptWord {
   std::string_view usage, meaning;

@@ -4,12 +4,23 @@
 #include <utility>
 
 #include "editor/script_words.h"
+#include "editor/view_words.h"
 
 namespace isorelax::editor {
 namespace {
 
 std::string_view first_word(std::string_view line) {
   return line.substr(0, line.find(' '));
+}
+
+/// A number that the user typed and that is nothing's: a script would be refused for it.
+bool selects_nothing(const model::Command& command, const model::Session& session) {
+  const TriangleMesh* mesh = session.document ? &session.document->mesh() : nullptr;
+  const std::size_t vertices = mesh != nullptr ? mesh->positions.size() : 0;
+  if (const auto* vertex = std::get_if<model::SelectVertex>(&command)) return vertex->vertex >= vertices;
+  if (const auto* pin = std::get_if<model::TogglePin>(&command)) return pin->vertex >= vertices;
+  const auto* triangle = std::get_if<model::SelectTriangle>(&command);
+  return triangle != nullptr && (mesh == nullptr || triangle->triangle >= mesh->triangles.size());
 }
 
 /// Of several in a row only the last one counts.
@@ -34,7 +45,9 @@ SessionLog::Looks SessionLog::looks_of(const render::Camera& camera, const ui::U
 }
 
 void SessionLog::add(std::string line) {
-  if (!lines_.empty() && replaces(line, lines_.back()))
+  // What was done before a run that goes on counts for it.
+  const bool may_replace = !run_from_ || lines_.size() > run_at_;
+  if (may_replace && !lines_.empty() && replaces(line, lines_.back()))
     lines_.back() = std::move(line);
   else
     lines_.push_back(std::move(line));
@@ -51,7 +64,7 @@ void SessionLog::note_looks(const Looks& now) {
 void SessionLog::note(const model::Command& command, const model::Session& session,
                       const render::Camera& camera, const ui::UiState& state) {
   std::string line = to_line(command);
-  if (line.empty()) return;
+  if (line.empty() || selects_nothing(command, session)) return;
   note_looks(looks_of(camera, state));
   const bool runs = std::holds_alternative<model::Run>(command) ||
                     std::holds_alternative<model::Step>(command) ||
@@ -61,6 +74,7 @@ void SessionLog::note(const model::Command& command, const model::Session& sessi
     const model::Branch* shown = session.moving();
     const bool anew = shown != nullptr && !session.continues_branch();
     run_from_ = anew ? shown->start : session.timeline.cursor.iteration;
+    run_at_ = lines_.size();
     return;
   }
   if (!runs) add(std::move(line));
@@ -71,7 +85,9 @@ void SessionLog::follow(const model::Session& session) {
   const unsigned from = *std::exchange(run_from_, std::nullopt);
   const unsigned at = session.timeline.cursor.iteration;
   const std::string word = session.moving() != nullptr ? "motion run " : "run ";
-  if (at > from) lines_.push_back(word + std::to_string(at - from));
+  // What was asked for meanwhile came behind the run.
+  if (at > from)
+    lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(run_at_), word + std::to_string(at - from));
 }
 
 std::string SessionLog::text(const render::Camera& camera, const ui::UiState& state) const {

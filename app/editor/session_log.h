@@ -34,6 +34,7 @@ class SessionLog {
   std::vector<std::string> lines_;
   Looks looks_;
   std::optional<unsigned> run_from_;
+  std::size_t run_at_ = 0;  ///< line before which it is written down
 };
 
 }  // namespace isorelax::editor

@@ -200,7 +200,7 @@ TEST(Script, DoesASessionAgainAndTellsWhatDoesNotHold) {
   EXPECT_EQ(failed.status, 1);
   EXPECT_NE(failed.err.find("line 3"), std::string::npos) << failed.err;
   const Outcome refused = run_program("script '" + folder.write("bad.script", "jump\n") + "'");
-  EXPECT_EQ(refused.status, 3);
+  EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("line 1"), std::string::npos) << refused.err;
 }
 

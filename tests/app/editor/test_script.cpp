@@ -73,6 +73,69 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
                InputError);
 }
 
+TEST_F(ScriptTest, WhatIsNotThereIsRefusedWithItsLine) {
+  (void)folder.make_square();
+  const std::string open = "open square.off\nset --tolerance 0\nrun 3\n";
+  for (const char* wrong : {"view range=banana", "view range=30:0", "view range=", "vertex 99999",
+                            "triangle 99999", "pin 99999", "seek 4", "seek 0 1", "beside 1", "compare 0 1"})
+    EXPECT_NE(complaint(open + wrong + "\n").find("a.script: line 4: "), std::string::npos) << wrong;
+  EXPECT_EQ(complaint(open + "seek 3\nseek 0\nview range=current\n"), "");
+  EXPECT_NE(complaint("vertex 0\n").find("none at all"), std::string::npos);
+  const std::string settings = complaint(open + "set --mu banana\n");
+  EXPECT_NE(settings.find("--mu banana"), std::string::npos) << settings;
+}
+
+TEST_F(ScriptTest, MistakesAndWhatCannotBeWrittenAreErrorsOfTheirKinds) {
+  (void)folder.make_square();
+  EXPECT_THROW((void)play("jump\n"), UsageError);
+  EXPECT_THROW((void)play("open missing.off\n"), InputError);
+  for (const char* writer : {"save none/a.off", "screenshot none/a.png", "picture none/a.png"}) {
+    const std::string text = "open square.off\n" + std::string(writer) + "\n";
+    EXPECT_THROW((void)play(text), OutputError) << writer;
+    EXPECT_NE(complaint(text).find("a.script: line 2: "), std::string::npos) << complaint(text);
+  }
+}
+
+TEST_F(ScriptTest, ATypedRangeIsWrittenDownAndRead) {
+  editor.act(model::OpenFile{folder.make_square()});
+  settle();
+  model::ViewSettings view = editor.session().view;
+  view.coloring = model::Coloring::relative_area;
+  view.range_mode = model::RangeMode::typed;
+  view.typed[3] = {0.25, 1.75};
+  EXPECT_NE(to_line(model::SetView{view}).find("range=0.25:1.75"), std::string::npos);
+  const std::vector<std::string> words = split_words(to_line(model::SetView{view}));
+  const auto read = parse_line(words, editor.session(), {});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(std::get<model::SetView>(*read).view, view);
+}
+
+TEST_F(ScriptTest, AVertexOutOfSightIsFlownToAndInspected) {
+  (void)write_mesh(folder / "ball.ply", generate(ShapeKind::sphere, {}));
+  const std::string look = "open ball.ply\nstep\ncamera front\n";
+  const auto pictures = play(look + "screenshot far.png\nvertex 0\nscreenshot why.png\n").pictures;
+  const auto typed = play(look + "tab inspect\nvertex 0\nfly\nscreenshot typed.png\n", "b.script").pictures;
+  EXPECT_FALSE(render::read_png(pictures[0]) == render::read_png(pictures[1]));
+  EXPECT_TRUE(render::read_png(typed[0]) == render::read_png(pictures[1]));
+  // One that is seen is only inspected.
+  context->make_current();
+  open(folder / "ball.ply");
+  editor.look("front");
+  const auto& x = editor.session().current->positions();
+  Index nearest = 0;
+  for (Index v = 0; v < x.size(); ++v)
+    if (x[v].z() > x[nearest].z()) nearest = v;
+  model::execute(editor.session(), model::SelectVertex{nearest});
+  EXPECT_TRUE(editor.sees_selection());
+  editor.look("back");
+  EXPECT_FALSE(editor.sees_selection());
+}
+
+TEST_F(ScriptTest, HelpListsEveryCommand) {
+  for (const char* word : {"step-back", "range=run|current|LO:HI"})
+    EXPECT_NE(script_reference().find(word), std::string::npos) << word;
+}
+
 TEST_F(ScriptTest, ASizeThatIsTooSmallIsRefusedWithTheSmallest) {
   (void)folder.make_square();
   for (const char* size : {"40x40", "159x120", "160x119", "1x1"})

@@ -1,0 +1,74 @@
+// What leaves the editor as a file or as text, and views that come back.
+
+#include <imgui.h>
+
+#include <utility>
+
+#include "editor/editor.h"
+#include "editor/session_view.h"
+#include "io/atomic_file.h"
+#include "mesh/error.h"
+#include "view/picture.h"
+
+namespace isorelax::editor {
+
+void Editor::save_script(const std::filesystem::path& path) {
+  try {
+    write_file_atomically(path, script());
+    say(model::MessageKind::info, "Saved " + path.string());
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
+}
+
+// The picture of one mesh carries its view: `isorelax render --like` it gives the same bytes. What stands
+// beside or over another state is taken as the viewport shows it, and no view says how to make that again.
+void Editor::save_picture(const std::filesystem::path& path) {
+  if (!session_.current) return;
+  try {
+    draw_pictures();
+    if (shows_others() || before_.drawn) {
+      const ImVec2 size{static_cast<float>(viewport_.width), static_cast<float>(viewport_.height)};
+      painter_.paint(
+          interface_,
+          interface_.compose(session_, {.display = size, .scale = scale_, .viewport = viewport_image()}),
+          viewport_);
+      render::write_png(path, painter_.read_back());
+    } else {
+      const view::View view = present_view();
+      render::Image image = current_.renderer.read_back();
+      if (view.transparent) unmultiply(image);
+      view::write_picture(path, {image, view});
+    }
+    say(model::MessageKind::info, "Saved " + path.string());
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
+}
+
+void Editor::copy_view() {
+  if (!session_.current) return;
+  ImGui::SetCurrentContext(&interface_.context());
+  ImGui::SetClipboardText(view::to_json(present_view()).c_str());
+  say(model::MessageKind::info, "Copied the view");
+}
+
+void Editor::paste_view(const std::string& text) {
+  if (!session_.current) return;
+  try {
+    view::View view = view::parse_view(text, "The clipboard");
+    if (const auto* spec = std::get_if<std::string>(&view.camera))
+      view.camera = render::parse_camera(*spec, session_.current->positions(), pane(), fit_options());
+    flight_.reset();
+    camera_ = std::get<render::Camera>(view.camera);
+    act(model::SetView{settings_of(view, session_.view)});
+    const bool other_size = view.size != pane();
+    const std::string size = std::to_string(view.size.width) + " x " + std::to_string(view.size.height);
+    base_ = std::move(view);
+    say(model::MessageKind::info, "Pasted the view" + (other_size ? ", of a picture of " + size : ""));
+  } catch (const Error& error) {
+    say(model::MessageKind::error, error.what());
+  }
+}
+
+}  // namespace isorelax::editor
