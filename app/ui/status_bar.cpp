@@ -68,9 +68,12 @@ void draw_status_bar(const Ui& ui, const Rect& rect) {
     text_in(ui.fonts.small, color::kText, progress.label);
     ImGui::SameLine(rect.width() - ui.px(34));
     ImGui::SetCursorPosY(ui.px(5));
+    // Text behind it in the line would be set on the baseline of its padding.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});
     if (button(ui, "cancel", "",
                {.icon = Icon::close, .look = ButtonLook::quiet, .width = ui.px(22), .height = ui.px(20)}))
       ui.command(model::Cancel{});
+    ImGui::PopStyleVar();
     tooltip(ui, "Stop this.");
     right -= ui.px(20);
   }
