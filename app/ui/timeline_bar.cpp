@@ -66,22 +66,31 @@ struct StageButton {
   bool enabled = true;
 };
 
+// The record of the shown step with its rounds; null while nobody has looked inside it.
+const StepRecord* record_of(const model::Session& s) {
+  const auto& view = s.inspection.step;
+  const model::Cursor& cursor = s.timeline.cursor;
+  const bool known = view && view->record->detail && view->at.branch == cursor.branch &&
+                     view->at.iteration == cursor.iteration;
+  return known ? view->record.get() : nullptr;
+}
+
 // Which round of its kind a pass is, and how many there are.
 std::string round_label(const model::StepSummary* step, const model::Session& s, Limit why,
                         std::string_view name, std::optional<Stage>& first) {
   const unsigned total = step == nullptr ? 0 : why == kLimitFold ? step->fold_passes : step->energy_passes;
-  const auto& view = s.inspection.step;
   unsigned at = 0;
-  if (view && view->record->detail) {
+  if (const StepRecord* record = record_of(s)) {
     unsigned seen = 0;
-    const auto& passes = view->record->detail->passes;
+    const auto& passes = record->detail->passes;
     for (unsigned k = 0; k < passes.size(); ++k) {
       if ((passes[k].why == kLimitEnergy) != (why == kLimitEnergy)) continue;
       ++seen;
       if (!first) first = Stage{StageKind::control, k};
       if (s.timeline.cursor.stage == Stage{StageKind::control, k}) at = seen;
     }
-  } else if (total > 0 && why == kLimitFold) {
+  } else if (total > 0) {
+    // Which round that is is only known with the record: looking at any brings it (find_guard).
     first = Stage{StageKind::control, 0};
   }
   if (total == 0) return std::string(name);
@@ -114,7 +123,26 @@ std::vector<StageButton> stage_buttons(const model::Session& s) {
   return buttons;
 }
 
+// Goes on from the round that brought the record to the first one of the guard.
+void find_guard(const Ui& ui) {
+  const model::Session& s = ui.session;
+  if (s.timeline.cursor.stage != Stage{StageKind::control, 0}) ui.state.seeks_guard = false;
+  const StepRecord* record = record_of(s);
+  if (!ui.state.seeks_guard || record == nullptr) return;
+  ui.state.seeks_guard = false;
+  const auto& passes = record->detail->passes;
+  const auto found = std::ranges::find(passes, kLimitEnergy, &ControlPass::why);
+  if (found != passes.end())
+    ui.command(model::SetStage{Stage{StageKind::control, static_cast<unsigned>(found - passes.begin())}});
+}
+
+void choose_stage(const Ui& ui, const StageButton& b) {
+  ui.command(model::SetStage{b.on ? std::nullopt : std::optional(b.stage)});
+  ui.state.seeks_guard = !b.on && b.label.starts_with("Guard") && record_of(ui.session) == nullptr;
+}
+
 void draw_stages(const Ui& ui, float right) {
+  find_guard(ui);
   constexpr std::array<float, 6> kWidths{58, 56, 62, 74, 62, 50};
   const auto buttons = stage_buttons(ui.session);
   float width = 0;
@@ -132,7 +160,7 @@ void draw_stages(const Ui& ui, float right) {
                       .width = ui.px(kWidths.at(k)),
                       .height = ui.px(26),
                       .enabled = b.enabled && !ui.session.is_running()}))
-      ui.command(model::SetStage{b.on ? std::nullopt : std::optional(b.stage)});
+      choose_stage(ui, b);
     tooltip(ui, b.enabled ? b.tip : "Nothing was cut back in this step.", keys_of(Action::next_stage));
   }
 }
@@ -184,14 +212,20 @@ void draw_curve(const Track& track, const std::vector<model::IterationRow>& rows
   const auto [low, high] = std::ranges::minmax(rows, {}, field);
   const double span = high.*field - low.*field;
   if (!(span > 0) || !std::isfinite(span)) return;
-  std::vector<ImVec2> points;
-  for (const model::IterationRow& row : rows) {
-    const double share = (row.*field - low.*field) / span;
-    points.emplace_back(track.x(row.iteration),
-                        track.area.high.y - static_cast<float>(0.1 + 0.8 * share) * track.area.height());
+  std::vector<ImVec2> piece;
+  const auto flush = [&] {
+    ImGui::GetWindowDrawList()->AddPolyline(piece.data(), static_cast<int>(piece.size()), ink,
+                                            ImDrawFlags_None, width);
+    piece.clear();
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    // Energies of other settings are no continuation.
+    if (k > 0 && rows[k].series != rows[k - 1].series) flush();
+    const double share = (rows[k].*field - low.*field) / span;
+    piece.emplace_back(track.x(rows[k].iteration),
+                       track.area.high.y - static_cast<float>(0.1 + 0.8 * share) * track.area.height());
   }
-  ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()), ink,
-                                          ImDrawFlags_None, width);
+  flush();
 }
 
 // One bar for each branch, from where it began to where it ends.

@@ -160,6 +160,7 @@ struct UiState {
   bool has_mesh = false;  ///< there is a mesh, and so a timeline
   SideTab tab = SideTab::quality;
   Playing playing;
+  bool seeks_guard = false;  ///< the first round of the energy guard is looked for
   Typing typing;
   ImVec2 press_at{0, 0};  ///< where the pointer went down in the viewport
   FileBrowser browser;
