@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ranges>
 
 #include "ui/widgets.h"
@@ -14,11 +13,13 @@ constexpr ImU32 kGridLine = IM_COL32(255, 255, 255, 16);
 constexpr ImU32 kAxis = IM_COL32(255, 255, 255, 40);
 constexpr ImU32 kOutline = IM_COL32(190, 197, 210, 200);
 
-std::string short_number(double value) {
+std::string short_number(double value, int decimals = 0) {
   const double magnitude = std::abs(value);
-  if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3)) return number_text("%.0e", value);
-  if (magnitude >= 1e5) return number_text("%.0fk", value / 1e3);
-  return number_text("%.5g", value);
+  const std::string digits = "%." + std::to_string(decimals);
+  if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3))
+    return number_text((digits + "e").c_str(), value);
+  if (magnitude >= 1e5) return number_text((digits + "fk").c_str(), value / 1e3);
+  return number_text(("%." + std::to_string(5 + decimals) + "g").c_str(), value);
 }
 
 // The rectangle of a plot's data, and the way from values to pixels.
@@ -45,36 +46,62 @@ void small_text(const Ui& ui, ImVec2 at, ImU32 color, const std::string& text) {
 }
 
 float small_width(const Ui& ui, std::string_view text) {
-  return ui.fonts.small
-      ->CalcTextSizeA(ui.fonts.small->FontSize, std::numeric_limits<float>::max(), 0, text.data(),
-                      text.data() + text.size())
-      .x;
+  return text_width(*ui.fonts.small, text);
 }
 
-// Title at the left, key at the right; reserves the plot's place. Returns the data's rectangle.
-Rect begin_plot(const Ui& ui, const std::string& name, const std::string& title,
-                std::span<const KeyEntry> key, float height) {
+constexpr float kKeyMark = 14;  // points from a mark to its label
+constexpr float kKeyGap = 10;   // and from a label to the next mark
+
+float key_width(const Ui& ui, std::span<const KeyEntry> key) {
+  float width = 0;
+  for (const KeyEntry& entry : key) width += small_width(ui, entry.label) + ui.px(kKeyMark + kKeyGap);
+  return width;
+}
+
+// The key ends at (right, top). Where it does not fit, each label has its share of the room.
+void draw_key(const Ui& ui, std::span<const KeyEntry> key, ImVec2 right_top, float room) {
+  const float line = ui.fonts.small->FontSize;
+  const float share =
+      key_width(ui, key) <= room ? room : room / static_cast<float>(key.size()) - ui.px(kKeyMark + kKeyGap);
+  float x = right_top.x;
+  // From the right; clang 14 cannot read this library's std::views::reverse.
+  for (std::size_t i = key.size(); i-- > 0;) {
+    const std::string label = fitted(*ui.fonts.small, key[i].label, share);
+    x -= small_width(ui, label);
+    small_text(ui, {x, right_top.y}, color::kTextDim, label);
+    x -= ui.px(kKeyMark);
+    const float middle = right_top.y + 0.5F * line;
+    ImGui::GetWindowDrawList()->AddRectFilled({x, middle - ui.px(1)}, {x + ui.px(9), middle + ui.px(1.5F)},
+                                              key[i].color);
+    x -= ui.px(kKeyGap);
+  }
+}
+
+struct PlotPlace {
+  std::string name, title;
+  float height = 0;
+  float labels = 0;  // width of those at the vertical axis
+};
+
+// Title at the left, key at the right or below it; reserves the plot's place. Returns the data's rectangle.
+Rect begin_plot(const Ui& ui, const PlotPlace& place, std::span<const KeyEntry> key) {
   const float line = ui.fonts.small->FontSize;
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::GetWindowDrawList()->AddText(ui.fonts.heading, line, low, color::kTextDim, title.c_str());
-  float x = low.x + width;
-  // From the right; clang 14 cannot read this library's std::views::reverse.
-  for (std::size_t i = key.size(); i-- > 0;) {
-    const KeyEntry& entry = key[i];
-    x -= small_width(ui, entry.label);
-    small_text(ui, {x, low.y}, color::kTextDim, std::string(entry.label));
-    x -= ui.px(14);
-    ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + 0.5F * line - ui.px(1)},
-                                              {x + ui.px(9), low.y + 0.5F * line + ui.px(1.5F)}, entry.color);
-    x -= ui.px(10);
-  }
-  const std::string id = "##plot-" + name;
-  ImGui::InvisibleButton(id.c_str(), {width, height});
+  ImGui::GetWindowDrawList()->AddText(ui.fonts.heading, line, low, color::kTextDim, place.title.c_str());
+  const float beside = width - text_width(*ui.fonts.heading, place.title) - ui.px(4);
+  const bool below = key_width(ui, key) > beside;
+  const float top = below ? low.y + line + ui.px(2) : low.y;
+  draw_key(ui, key, {low.x + width, top}, below ? width : beside);
+  mark_area(ui, place.name + "/key",
+            {{low.x + width - std::min(width, key_width(ui, key)), top}, {low.x + width, top + line}});
+  mark_area(ui, place.name + "/title", {low, {low.x + width - beside - ui.px(4), low.y + line}});
+  const std::string id = "##plot-" + place.name;
+  ImGui::InvisibleButton(id.c_str(), {width, place.height});
   const ImVec2 high = ImGui::GetItemRectMax();
-  const Rect area{{low.x + ui.px(42), low.y + line + ui.px(8)},
+  const Rect area{{low.x + std::max(ui.px(42), place.labels + ui.px(7)), top + line + ui.px(8)},
                   {high.x - ui.px(4), high.y - line - ui.px(5)}};
-  mark_area(ui, name, area);
+  mark_area(ui, place.name, area);
   return area;
 }
 
@@ -161,10 +188,39 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
   return ticks;
 }
 
+std::vector<std::string> tick_labels(std::span<const double> ticks) {
+  constexpr int kMostDecimals = 12;
+  std::vector<std::string> labels;
+  for (int decimals = 0; decimals <= kMostDecimals; ++decimals) {
+    labels.clear();
+    for (const double tick : ticks) labels.push_back(short_number(tick, decimals));
+    // Ticks ascend: equal ones are neighbours.
+    if (std::ranges::adjacent_find(labels) == labels.end()) break;
+  }
+  return labels;
+}
+
+void fit_range(LinePlot& plot) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const Line& line : plot.lines)
+    for (const ImVec2& point : line.points) {
+      if (!std::isfinite(point.y)) continue;
+      low = std::min(low, double{point.y});
+      high = std::max(high, double{point.y});
+    }
+  if (low > high) return;
+  const bool wide = low > 0 && high > 20 * low;
+  plot.scale = wide ? PlotScale::logarithmic : PlotScale::linear;
+  const double pad = std::max(0.08 * (high - low), 1e-3 * std::abs(high));
+  plot.low = wide ? low * 0.9 : low - pad;
+  plot.high = wide ? high * 1.1 : high + pad;
+}
+
 void draw_bars(const Ui& ui, const Bars& bars, float height) {
   constexpr ImU32 kFill = IM_COL32(242, 140, 79, 190);
   const std::array key{KeyEntry{"current", kFill}, KeyEntry{"original", kOutline}};
-  Frame frame{begin_plot(ui, bars.name, bars.title, key, height), bars.low, bars.high, 0, 1};
+  Frame frame{begin_plot(ui, {bars.name, bars.title, height}, key), bars.low, bars.high, 0, 1};
   if (frame.area.height() < 8 || bars.now.empty()) return;
   frame.y1 = static_cast<double>(std::max<std::size_t>(
       {1, *std::ranges::max_element(bars.now), *std::ranges::max_element(bars.before)}));
@@ -202,36 +258,53 @@ void draw_bars(const Ui& ui, const Bars& bars, float height) {
   read_out(ui, range, lines);
 }
 
+namespace {
+
+std::vector<double> value_ticks(const LinePlot& plot) {
+  if (!plot.ticks.empty()) return plot.ticks;
+  if (plot.scale == PlotScale::linear) return round_ticks(plot.low, plot.high, 3);
+  std::vector<double> ticks;
+  const double low = std::log10(plot.low);
+  const double high = std::log10(plot.high);
+  for (double e = std::ceil(low); e <= high; e += std::max(1.0, std::floor((high - low) / 3)))
+    ticks.push_back(std::pow(10.0, e));
+  return ticks;
+}
+
+double last_of(const LinePlot& plot) {
+  double last = plot.x_end;
+  for (const Line& line : plot.lines)
+    if (!line.points.empty()) last = std::max(last, static_cast<double>(line.points.back().x));
+  return last;
+}
+
+}  // namespace
+
 void draw_lines(const Ui& ui, const LinePlot& plot, float height) {
   std::vector<KeyEntry> key;
   if (plot.lines.size() > 1)
     for (const Line& line : plot.lines) key.push_back({line.label, line.color});
-  Frame frame{begin_plot(ui, plot.name, plot.title, key, height), 0, 1, plot.low, plot.high};
+  const std::vector<double> ticks = value_ticks(plot);
+  std::vector<std::string> labels = tick_labels(ticks);
+  float widest = 0;
+  for (std::string& label : labels) widest = std::max(widest, small_width(ui, label += plot.unit));
+  Frame frame{begin_plot(ui, {plot.name, plot.title, height, widest}, key), 0, last_of(plot), plot.low,
+              plot.high};
   if (frame.area.height() < 8) return;
-  double last = plot.x_end;
-  for (const Line& line : plot.lines)
-    if (!line.points.empty()) last = std::max(last, static_cast<double>(line.points.back().x));
-  frame.x1 = last;
   const bool logarithmic = plot.scale == PlotScale::logarithmic;
   if (logarithmic) {
     frame.y0 = std::log10(plot.low);
     frame.y1 = std::log10(plot.high);
   }
-  std::vector<double> ticks = plot.ticks;
-  if (ticks.empty() && !logarithmic) ticks = round_ticks(plot.low, plot.high, 3);
-  if (ticks.empty())
-    for (double e = std::ceil(frame.y0); e <= frame.y1;
-         e += std::max(1.0, std::floor((frame.y1 - frame.y0) / 3)))
-      ticks.push_back(std::pow(10.0, e));
-  for (const double t : ticks)
-    draw_y_tick(ui, frame, logarithmic ? std::log10(t) : t, short_number(t) + plot.unit);
+  for (std::size_t k = 0; k < ticks.size(); ++k)
+    draw_y_tick(ui, frame, logarithmic ? std::log10(ticks[k]) : ticks[k], labels[k]);
   for (const double t : round_ticks(0, frame.x1, 4))
     if (!plot.whole_numbers || t == std::floor(t)) draw_x_tick(ui, frame, t, short_number(t));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddLine({frame.area.low.x, frame.area.high.y}, frame.area.high, kAxis);
   for (const Line& line : plot.lines) draw_line(draw, frame, line, plot.scale, ui.px(1.75F));
   // At the end it says nothing.
-  if (plot.marker && *plot.marker<last&& * plot.marker> 0) {
+  if (plot.marker && *plot.marker<frame.x1&& * plot.marker> 0) {
     const float x = std::floor(frame.x(*plot.marker)) + 0.5F;
     draw.AddLine({x, frame.area.low.y}, {x, frame.area.high.y}, faded(color::kText, 0.45F), ui.px(1));
   }

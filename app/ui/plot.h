@@ -12,6 +12,9 @@ namespace isorelax::ui {
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside low..high, about `wanted` of them.
 [[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
 
+/// Labels of ascending ticks, with as many digits as tell them apart.
+[[nodiscard]] std::vector<std::string> tick_labels(std::span<const double> ticks);
+
 struct Bars {
   std::string name{};  ///< identity, and what a test finds
   std::string title{};
@@ -47,6 +50,8 @@ struct LinePlot {
   double x_end = 10;          ///< at least so far
   bool whole_numbers = true;  ///< only these are written at it
 };
+/// Sets scale and range so that all lines have room; over some decades on a logarithmic scale.
+void fit_range(LinePlot& plot);
 /// Lines over iterations or time, with a read-out under the pointer.
 void draw_lines(const Ui& ui, const LinePlot& plot, float height);
 

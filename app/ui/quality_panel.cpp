@@ -172,15 +172,8 @@ void draw_history(const Ui& ui, float height) {
   LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g"};
   energy.marker = ui.session.current->iteration;
   energy.lines.push_back(make_line(rows, &model::IterationRow::energy, "energy", color::kAccent));
-  if (!rows.empty()) {
-    const auto [low, high] = std::ranges::minmax(rows, {}, &model::IterationRow::energy);
-    const bool wide = low.energy > 0 && high.energy > 20 * low.energy;
-    energy.scale = wide ? PlotScale::logarithmic : PlotScale::linear;
-    const double pad = std::max(0.08 * (high.energy - low.energy), 1e-3 * std::abs(high.energy));
-    energy.low = wide ? low.energy * 0.9 : low.energy - pad;
-    energy.high = wide ? high.energy * 1.1 : high.energy + pad;
-  }
   add_runs_beside(ui, &model::IterationRow::energy, energy);
+  fit_range(energy);
   draw_lines(ui, energy, height);
   LinePlot angles{.name = "angle-plot",
                   .title = "WORST ANGLES",

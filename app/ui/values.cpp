@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "ui/widgets.h"
 
@@ -13,6 +14,27 @@ std::string exact_text(double value) {
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
+}
+
+float text_width(const ImFont& font, std::string_view text) {
+  if (text.empty()) return 0;  // Dear ImGui would look for the end of what may be no text at all
+  return font
+      .CalcTextSizeA(font.FontSize, std::numeric_limits<float>::max(), 0, text.data(),
+                     text.data() + text.size())
+      .x;
+}
+
+std::string fitted(const ImFont& font, std::string_view text, float width) {
+  if (text_width(font, text) <= width) return std::string(text);
+  constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (!text.empty()) {
+    while (continues(text.back())) text.remove_suffix(1);
+    text.remove_suffix(1);
+    std::string shorter = std::string(text) + std::string(kEllipsis);
+    if (text_width(font, shorter) <= width) return shorter;
+  }
+  return {};
 }
 
 void value_row(const Ui& ui, const ValueRow& row) {

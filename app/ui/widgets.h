@@ -98,6 +98,11 @@ void wrapped(ImFont* font, ImU32 color, std::string_view text);
 /// A text with the place of a mistake underlined, and what is wrong below; `column` counts from 1.
 void draw_mistake(const Ui& ui, const std::string& text, std::size_t column, const std::string& reason);
 
+/// Width of a text in a font, in pixels.
+[[nodiscard]] float text_width(const ImFont& font, std::string_view text);
+/// The text, or as much of it as fits into a width with an ellipsis behind.
+[[nodiscard]] std::string fitted(const ImFont& font, std::string_view text, float width);
+
 /// "1 234 567": groups of three with thin gaps.
 [[nodiscard]] std::string count_text(std::size_t count);
 /// printf-like number text for one double.

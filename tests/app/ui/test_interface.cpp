@@ -222,6 +222,68 @@ TEST_F(InterfaceTest, HelpListsTheKeysAndEscapeClosesIt) {
   EXPECT_FALSE(shows("help-page"));
 }
 
+TEST_F(InterfaceTest, TheGuardOfAStepCanBeLookedIntoAtOnce) {
+  open();
+  session.smoothing.iterations = 30;
+  session.smoothing.tolerance = 0;
+  session.smoothing.exponent = 16;
+  click("run");
+  unsigned guarded = 0;
+  for (unsigned k = 1; k <= session.timeline.last(); ++k)
+    if (session.timeline.step(0, k)->energy_passes > 0) guarded = k;
+  ASSERT_GT(guarded, 0U);
+  model::execute(session, model::Seek{guarded, {}});
+  settle_and_finish();
+  click("stage/Guard");
+  settle_and_finish();
+  const auto stage = session.timeline.cursor.stage;
+  ASSERT_TRUE(stage);
+  ASSERT_TRUE(session.inspection.step && session.inspection.step->record->detail);
+  const auto& passes = session.inspection.step->record->detail->passes;
+  ASSERT_LT(stage->pass, passes.size());
+  EXPECT_EQ(passes[stage->pass].why, kLimitEnergy);
+}
+
+TEST_F(InterfaceTest, TheKeyOfThreeRunsStandsClearOfTheTitle) {
+  open();
+  session.smoothing.iterations = 3;
+  model::execute(session, model::Teach{});
+  settle_and_finish();
+  press(Key::q);
+  ASSERT_EQ(session.shown_branches.size(), 2U);
+  for (const std::string plot : {"energy-plot", "angle-plot"}) {
+    const Rect key = interface.state().rects.at(plot + "/key");
+    const Rect title = interface.state().rects.at(plot + "/title");
+    EXPECT_TRUE(key.low.x > title.high.x || key.low.y >= title.high.y) << plot;
+  }
+}
+
+TEST_F(InterfaceTest, WhileBusyTheLineOfNewsStandsWithItsNeighbours) {
+  open(20000);
+  model::execute(session, model::Say{{model::MessageKind::info, "News"}});
+  model::execute(session, model::Run{});
+  frame();
+  ASSERT_TRUE(session.engine.progress().busy);
+  frame();
+  ASSERT_TRUE(shows("news"));
+  EXPECT_NEAR(interface.state().rects.at("news").center().y,
+              interface.state().rects.at("document").center().y, 1);
+  model::execute(session, model::Cancel{});
+  model::finish(session);
+}
+
+TEST_F(InterfaceTest, TheTimelineDoesNotJoinEnergiesOfDifferentKinds) {
+  open();
+  click("step");
+  press(Key::t);
+  settle();
+  ASSERT_EQ(session.history.size(), 2U);
+  const int joined = interface.draw_data().TotalVtxCount;
+  session.history.back().series = session.history.front().series + 1;
+  frame();
+  EXPECT_LT(interface.draw_data().TotalVtxCount, joined);
+}
+
 TEST_F(InterfaceTest, HiddenPanelsLeaveTheWholeWindowToTheMesh) {
   open();
   press(Key::h);

@@ -17,6 +17,29 @@ TEST(RoundTicks, AreOneTwoOrFiveTimesAPowerOfTenInsideTheRange) {
   }
 }
 
+TEST(TickLabels, TellTicksApart) {
+  EXPECT_EQ(tick_labels(std::vector<double>{0, 50, 100}), (std::vector<std::string>{"0", "50", "100"}));
+  for (const std::vector<double>& ticks :
+       {std::vector<double>{131900, 132000, 132100}, {7e6, 7.002e6, 7.004e6}, {1e-5, 1.5e-5, 2e-5}}) {
+    const auto labels = tick_labels(ticks);
+    for (std::size_t k = 1; k < labels.size(); ++k) EXPECT_NE(labels[k], labels[k - 1]);
+  }
+}
+
+TEST(FitRange, HasRoomForAllLines) {
+  LinePlot plot;
+  plot.lines = {{.points = {{0, 100}, {1, 90}}, .new_start = {true, false}},
+                {.points = {{0, 100}, {1, 300}}, .new_start = {true, false}}};
+  fit_range(plot);
+  EXPECT_LT(plot.low, 90);
+  EXPECT_GT(plot.high, 300);
+  EXPECT_EQ(plot.scale, PlotScale::linear);
+  plot.lines.push_back({.points = {{0, 1e5}}, .new_start = {true}});
+  fit_range(plot);
+  EXPECT_GT(plot.high, 1e5);
+  EXPECT_EQ(plot.scale, PlotScale::logarithmic);
+}
+
 TEST(CountText, GroupsDigitsByThree) {
   EXPECT_EQ(count_text(7), "7");
   EXPECT_EQ(count_text(1234567),
