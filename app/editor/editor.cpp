@@ -57,6 +57,7 @@ void Editor::frame(const FrameOptions& options) {
   follow_document();
   move_camera(options.time);
   follow_motion();
+  follow_panes();
   const auto before_mesh = Clock::now();
   draw_pictures();
   drawing += seconds_since(before_mesh);
@@ -147,6 +148,8 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
   key.against = shown.against.get();
   key.view = view;
   key.lines_only = lines_only;
+  const bool covered = shows_names() || ui::tells_selection(interface_.state(), session_);
+  key.caption_lift = covered ? ui::kNameStrip : 0;
   if (&picture == &current_) {
     const auto& step = session_.inspection.step;
     key.step = step && !session_.is_running() ? step->record.get() : nullptr;
@@ -158,6 +161,7 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
   }
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
+  scene.caption_lift = key.caption_lift;
   // One legend serves both.
   if (lines_only) scene.legend.reset();
   if (&picture == &current_) add_step(session_, shown.state->positions(), scene);

@@ -71,6 +71,7 @@ class Editor {
     const model::MeshState* against = nullptr;
     view::View view;
     bool lines_only = false;
+    double caption_lift = 0;
     // What is laid over it.
     const StepRecord* step = nullptr;
     std::optional<model::Stage> stage;
@@ -97,6 +98,8 @@ class Editor {
   [[nodiscard]] render::FitOptions fit_options();
   void move_camera(double time);
   void follow_motion();
+  void follow_panes();
+  [[nodiscard]] bool shows_names() const;
   [[nodiscard]] render::Camera framed();
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
@@ -138,6 +141,7 @@ class Editor {
   std::optional<Flight> flight_;
   render::Camera framed_;           ///< as it was when it last framed the mesh by itself or when asked to
   Eigen::AlignedBox3d framed_box_;  ///< of the moving surface in it
+  std::size_t framed_panes_ = 1;    ///< beside each other when it did
   model::DocumentPtr shown_document_;
   render::PictureSize viewport_;
   float scale_ = 1;

@@ -29,8 +29,9 @@ void Editor::follow_document() {
   shown_document_ = session_.document;
   if (same_file) return;
   base_.selected.reset();
-  camera_ = framed_ = render::default_camera(session_.document->mesh().positions, viewport_, fit_options());
+  camera_ = framed_ = render::default_camera(session_.document->mesh().positions, pane(), fit_options());
   framed_box_.setEmpty();
+  framed_panes_ = panes();
   flight_.reset();
 }
 
@@ -55,10 +56,27 @@ void Editor::follow_motion() {
   camera_ = framed_ = framed();
 }
 
-// Keeps the mesh clear of the legend.
+// Keeps the mesh clear of the legend, of the controls at the top and of the names at the bottom.
 render::FitOptions Editor::fit_options() {
   ViewScene scene;
-  return {.margin = 0.07, .right = render::legend_share(scene.make(shown_now(), present_view()), pane())};
+  const double height = pane().height;
+  const float bar = ui::compare_bar_height(interface_.state(), static_cast<float>(viewport_.width), scale_);
+  return {.margin = 0.07,
+          .right = render::legend_share(scene.make(shown_now(), present_view()), pane()),
+          .top = bar / height,
+          .bottom = shows_names() ? ui::kNameStrip * scale_ / height : 0};
+}
+
+// Names stand in pictures of which there are several.
+bool Editor::shows_names() const {
+  return panes() > 1 || shows_before();
+}
+
+// More or fewer pictures beside each other have less or more room. A camera that the user moved stays.
+void Editor::follow_panes() {
+  if (!session_.current || panes() == framed_panes_) return;
+  framed_panes_ = panes();
+  if (!flight_ && camera_ == framed_) camera_ = framed_ = framed();
 }
 
 void Editor::move_camera(double time) {

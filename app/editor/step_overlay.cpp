@@ -89,8 +89,7 @@ void add_arrows(const model::Session& session, std::span<const Vec3> x, const mo
     const double usual = usual_length(record.detail ? record.detail->proposed : record.displacement);
     const double factor = usual > 0 ? round_factor(0.8 * edge / usual) : 1;
     for (Vec3& v : vectors) v *= factor;
-    if (factor > 1)
-      scene.caption = "Arrows " + std::to_string(static_cast<long>(factor)) + " times as long as the moves";
+    if (factor > 1) scene.caption = "Arrows: moves \xC3\x97 " + std::to_string(static_cast<long>(factor));
   }
   scene.arrows.items.clear();
   for (std::size_t v = 0; v < vectors.size(); ++v)

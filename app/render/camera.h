@@ -87,10 +87,13 @@ struct FitOptions {
   /// Length left free on the right (a legend stands there), as a share of the picture's height;
   /// never more than four fifths of the right half.
   double right = 0;
+  /// The same at the top and the bottom, for what is laid over the picture there.
+  double top = 0;
+  double bottom = 0;
 };
 
 /// The same direction, all of `bounds` in sight and centred, or as near to the centre as the space kept free
-/// on the right allows. A single point is shown with extent 1.
+/// allows. A single point is shown with extent 1.
 Camera fit(const Camera& camera, const Bounds& bounds, PictureSize size, const FitOptions& options = {});
 /// The same for the points themselves: tighter than their box.
 Camera fit(const Camera& camera, std::span<const Vec3> positions, PictureSize size,

@@ -33,7 +33,8 @@ std::array<Vec3, 8> corners_of(const Bounds& bounds) {
 struct FreeArea {
   double left;   ///< < 0
   double right;  ///< > 0
-  double half_height;
+  double low;    ///< < 0
+  double high;   ///< > 0
 };
 
 FreeArea free_area(PictureSize size, const FitOptions& options) {
@@ -43,7 +44,10 @@ FreeArea free_area(PictureSize size, const FitOptions& options) {
   const double margin = options.margin * shorter;
   const double half_width = std::max(0.5 * width - margin, 0.1 * width);
   const double right = std::max(half_width - options.right * height, 0.2 * half_width);
-  return {-half_width / shorter, right / shorter, std::max(0.5 * height - margin, 0.1 * height) / shorter};
+  const double half_height = std::max(0.5 * height - margin, 0.1 * height);
+  const double high = std::max(half_height - options.top * height, 0.2 * half_height);
+  const double low = std::max(half_height - options.bottom * height, 0.2 * half_height);
+  return {-half_width / shorter, right / shorter, -low / shorter, high / shorter};
 }
 
 /// A point as the camera sees it, from the target: to the right, up, toward the eye.
@@ -75,8 +79,8 @@ double extent_for(const Camera& camera, std::span<const Seen> points, double x, 
   const double near = nearness(camera);
   double extent = 0;
   for (const Seen& p : points) {
-    const double across =
-        std::max({(p.x + x) / free.right, (p.x + x) / free.left, std::abs(p.y + y) / free.half_height});
+    const double across = std::max(
+        {(p.x + x) / free.right, (p.x + x) / free.left, (p.y + y) / free.high, (p.y + y) / free.low});
     // In perspective across / (1 - z / distance) <= extent, where near = extent / distance.
     extent = std::max(extent, across + p.z * near);
   }
@@ -122,11 +126,14 @@ Camera fit_points(const Camera& camera, std::span<const Vec3> points, const Vec3
   for (int round = 0; round < kRounds; ++round) {
     const Silhouette box = silhouette_of(seen, x, y, nearness(fitted) / extent);
     extent = std::max({(box.right - box.left) / (free.right - free.left),
-                       (box.high - box.low) / (2 * free.half_height), least});
-    // Across, no further than needed: a shape that fits in the picture's middle stays there.
+                       (box.high - box.low) / (free.high - free.low), least});
+    // No further than needed: a shape that fits in the picture's middle stays there.
     const double middle = std::min(0.0, free.right * extent - 0.5 * (box.right - box.left));
+    const double half_height = 0.5 * (box.high - box.low);
+    const double level =
+        std::max(free.low * extent + half_height, std::min(0.0, free.high * extent - half_height));
     x -= 0.5 * (box.left + box.right) - middle;
-    y -= 0.5 * (box.low + box.high);
+    y -= 0.5 * (box.low + box.high) - level;
   }
   const CameraAxes axes = axes_of(fitted);
   fitted.target -= x * axes.right + y * axes.up;

@@ -162,7 +162,7 @@ Overlay make_caption(const Scene& scene, PictureSize size, double scale) {
   const int width = static_cast<int>(std::ceil(font.width(scene.caption) + 2 * pad));
   const int height = static_cast<int>(std::ceil(kLine * scale));
   const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
-  const int top = size.height - edge - height;
+  const int top = size.height - edge - height - static_cast<int>(std::lround(scene.caption_lift * scale));
   Canvas canvas(std::min(width, size.width), height);
   veil(canvas, scene, top, size);
   canvas.text(font, scene.caption, pad, 0.5 * (height + font.cap_height()), Align::left,

@@ -32,10 +32,15 @@ std::string name_of_before(const Comparison& comparison) {
   return "Original";
 }
 
-void draw_name(const Ui& ui, ImDrawList& draw, const std::string& name, float x, float y, bool right_of_x) {
+// At the left of a place where `room` is left of a pane's width, or at its right.
+void draw_name(const Ui& ui, ImDrawList& draw, const std::string& whole, ImVec2 at, float room,
+               bool right_of_x) {
+  const auto [x, y] = at;
   ImFont& font = *ui.fonts.text;
-  const ImVec2 size = font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, name.c_str());
   const ImVec2 pad{ui.px(8), ui.px(4)};
+  const std::string name = fitted(font, whole, room - 2 * (ui.px(10) + pad.x));
+  if (name.empty()) return;
+  const ImVec2 size = font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, name.c_str());
   const float left = right_of_x ? x + ui.px(10) : x - ui.px(10) - size.x - 2 * pad.x;
   const ImVec2 low{left, y - ui.px(12) - size.y - 2 * pad.y};
   draw.AddRectFilled(low, {low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y}, IM_COL32(34, 37, 43, 225),
@@ -59,16 +64,19 @@ void draw_blink(const Ui& ui, ImDrawList& draw, const Rect& rect, const Viewport
     comparison.blink_before = !comparison.blink_before;
   }
   draw_part(draw, comparison.blink_before ? image.before : image.texture, rect, 0, 1);
-  draw_name(ui, draw, comparison.blink_before ? name_of_before(comparison) : "Current", rect.low.x,
-            rect.high.y, true);
+  draw_name(ui, draw, comparison.blink_before ? name_of_before(comparison) : "Current",
+            {rect.low.x, rect.high.y}, rect.width(), true);
 }
 
-void choose_partner(const Ui& ui) {
+// In a row of so many pixels.
+void choose_partner(const Ui& ui, float room) {
   Comparison& comparison = ui.state.comparison;
   const std::string remembered = comparison.remembers ? comparison.remembered : "Remember this state";
   const std::string file = comparison.file.empty() ? "Another file..." : comparison.file;
   const std::array<std::string_view, 4> labels{"Original", remembered, file, "The run beside"};
-  ImGui::SetNextItemWidth(ui.px(180));
+  const float buttons =
+      button_width(ui, "Remember", Icon::none) + button_width(ui, "File", Icon::open) + ui.px(6);
+  ImGui::SetNextItemWidth(std::clamp(room - buttons, ui.px(60), ui.px(180)));
   const int choice = combo(ui, "compare-with", labels, static_cast<int>(comparison.with));
   tooltip(ui, "What the mesh is compared with.");
   ImGui::SameLine(0, ui.px(4));
@@ -158,8 +166,8 @@ void draw_grid(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportI
                                                               : 0;
     if (branch >= s.timeline.branches.size()) continue;
     const unsigned at = std::min(s.timeline.cursor.iteration, s.timeline.branches[branch].tip());
-    draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at), cell.low.x,
-              cell.high.y, true);
+    draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at),
+              {cell.low.x, cell.high.y}, cell.width(), true);
     mark_area(ui, "view/" + std::to_string(k), cell);
   }
 }
@@ -183,8 +191,8 @@ void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const Viewp
       draw_part(draw, image.texture, rect, comparison.divider, 1);
       const float x = rect.low.x + comparison.divider * rect.width();
       draw_divider(ui, draw, rect, x);
-      draw_name(ui, draw, name_of_before(comparison), x, rect.high.y, false);
-      draw_name(ui, draw, "Current", x, rect.high.y, true);
+      draw_name(ui, draw, name_of_before(comparison), {x, rect.high.y}, x - rect.low.x, false);
+      draw_name(ui, draw, "Current", {x, rect.high.y}, rect.high.x - x, true);
       break;
     }
     case CompareMode::blink:
@@ -196,40 +204,73 @@ void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const Viewp
       const float middle = panes.low.x + width;
       draw_part(draw, image.before, {panes.low, {middle, panes.high.y}}, 0, 1);
       draw_part(draw, image.texture, {{middle, panes.low.y}, {middle + width, panes.high.y}}, 0, 1);
-      draw_name(ui, draw, name_of_before(comparison), panes.low.x, panes.high.y, true);
-      draw_name(ui, draw, "Current", middle, panes.high.y, true);
+      draw_name(ui, draw, name_of_before(comparison), {panes.low.x, panes.high.y}, width, true);
+      draw_name(ui, draw, "Current", {middle, panes.high.y}, width, true);
       break;
     }
     case CompareMode::ghost:
       draw_part(draw, image.texture, rect, 0, 1);
       draw_part(draw, image.before, rect, 0, 1);
-      draw_name(ui, draw, "Lines: " + name_of_before(comparison), rect.low.x, rect.high.y, true);
+      draw_name(ui, draw, "Lines: " + name_of_before(comparison), {rect.low.x, rect.high.y}, rect.width(),
+                true);
       break;
   }
 }
 
-void draw_compare_bar(const Ui& ui, const Rect& rect) {
+namespace {
+
+// Of the bar, in points.
+constexpr float kBarEdge = 10;  // above it
+constexpr float kBarPadY = 6;
+constexpr float kBarPadX = 10;
+constexpr float kRowGap = 8;
+constexpr float kModesWidth = 330;
+constexpr float kModeMenuWidth = 100;
+constexpr float kNarrow = kModesWidth + 120;  // viewports in which the modes do not fit side by side
+constexpr float kTooNarrow = 280;             // and those in which the bar would cover all
+
+bool shows_bar(const UiState& state, float width, float scale) {
+  return !state.panels_hidden && width >= kTooNarrow * scale;
+}
+
+int choose_mode(const Ui& ui, const Rect& rect) {
   constexpr std::array<std::string_view, 6> kModes{"Off", "Split", "Blink", "Side", "Ghost", "Change"};
+  const int mode = static_cast<int>(ui.state.comparison.mode);
+  if (rect.width() >= ui.px(kNarrow)) return segmented(ui, "compare", kModes, mode, ui.px(kModesWidth));
+  ImGui::SetNextItemWidth(ui.px(kModeMenuWidth));
+  return combo(ui, "compare", kModes, mode);
+}
+
+}  // namespace
+
+float compare_bar_height(const UiState& state, float width, float scale) {
+  if (!shows_bar(state, width, scale)) return 0;
+  const float more = state.comparison.mode == CompareMode::off ? 0 : kRowGap + size::kControl;
+  return (kBarEdge + 2 * kBarPadY + size::kControl + more) * scale;
+}
+
+void draw_compare_bar(const Ui& ui, const Rect& rect) {
   Comparison& comparison = ui.state.comparison;
   const bool on = comparison.mode != CompareMode::off;
-  const float width = ui.px(330);
-  if (rect.width() < width + ui.px(120) || ui.state.panels_hidden) return;
-  ImGui::SetNextWindowPos({rect.low.x + ui.px(14), rect.low.y + ui.px(10)});
+  if (!shows_bar(ui.state, rect.width(), ui.scale)) return;
+  ImGui::SetNextWindowPos({rect.low.x + ui.px(14), rect.low.y + ui.px(kBarEdge)});
   ImGui::SetNextWindowSize({0, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 200)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(8));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(6)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(kBarPadX), ui.px(kBarPadY)});
   ImGui::Begin("compare-bar", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::AlignTextToFramePadding();
   text_in(ui.fonts.heading, color::kTextDim, "COMPARE");
   ImGui::SameLine(0, ui.px(10));
-  const int choice = segmented(ui, "compare", kModes, static_cast<int>(comparison.mode), width);
+  const int choice = choose_mode(ui, rect);
   tooltip(ui, "Before and after on one camera; Change colours by quality now minus then.",
           keys_of(Action::compare));
   if (choice >= 0) comparison.mode = static_cast<CompareMode>(choice);
-  if (on) choose_partner(ui);
+  if (on) choose_partner(ui, rect.width() - 2 * ui.px(14 + kBarPadX));
+  const ImVec2 low = ImGui::GetWindowPos();
+  mark_area(ui, "compare-bar", {low, {low.x + ImGui::GetWindowWidth(), low.y + ImGui::GetWindowHeight()}});
   ImGui::End();
   ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();

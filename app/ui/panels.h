@@ -36,6 +36,12 @@ struct Grid {
 void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image);
 /// The controls of the comparison, over the viewport.
 void draw_compare_bar(const Ui& ui, const Rect& rect);
+/// What they cover at the top of a viewport of this width, in pixels.
+[[nodiscard]] float compare_bar_height(const UiState& state, float width, float scale);
+/// Points that the names of pictures, and what is said of a selection, cover at the bottom.
+inline constexpr float kNameStrip = 46;
+/// Whether what is said of a selected triangle stands over the viewport.
+[[nodiscard]] bool tells_selection(const UiState& state, const model::Session& session);
 
 void draw_top_bar(const Ui& ui, const Rect& rect);
 void draw_settings_panel(const Ui& ui, const Rect& rect);

@@ -83,7 +83,7 @@ std::string notice_text(const Ui& ui, const model::Message& newest) {
 }
 
 // The newest error or the warnings stay over the viewport until they are dismissed.
-void draw_notice(const Ui& ui, const Rect& rect) {
+void draw_notice(const Ui& ui, const Rect& rect, float top) {
   const auto& messages = ui.session.messages;
   const auto found = std::find_if(messages.rbegin(), messages.rend(),
                                   [](const model::Message& m) { return m.kind != model::MessageKind::info; });
@@ -92,9 +92,9 @@ void draw_notice(const Ui& ui, const Rect& rect) {
   const float margin = ui.px(14);
   const float width = std::min(ui.px(520), rect.width() - 2 * margin);
   if (width < ui.px(80)) return;
-  ImGui::SetNextWindowPos({rect.low.x + margin, rect.low.y + margin});
+  ImGui::SetNextWindowPos({rect.low.x + margin, rect.low.y + top + margin});
   ImGui::SetNextWindowSize({width, 0});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 244)));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 255)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(16), ui.px(10)});
   ImGui::Begin("notice", nullptr,
@@ -121,7 +121,6 @@ void draw_notice(const Ui& ui, const Rect& rect) {
 }
 
 std::string describe_selection(const model::Session& s) {
-  if (!s.selected_triangle || !s.current) return {};
   const Index t = *s.selected_triangle;
   const model::Geometry& g = *s.current->geometry;
   const std::string rank = s.rank_of_worst() > 0 ? ", worst no. " + std::to_string(s.rank_of_worst()) : "";
@@ -134,12 +133,11 @@ std::string describe_selection(const model::Session& s) {
 }
 
 void draw_selection(const Ui& ui, const Rect& rect) {
-  // The inspector says it better.
-  if (ui.state.tab == SideTab::inspect && !ui.state.panels_hidden) return;
-  const std::string text = describe_selection(ui.session);
-  if (text.empty()) return;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  if (!tells_selection(ui.state, ui.session)) return;
   const ImVec2 pad{ui.px(12), ui.px(7)};
+  const std::string text =
+      fitted(*ui.fonts.text, describe_selection(ui.session), rect.width() - 2 * (ui.px(14) + pad.x));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 low{rect.low.x + ui.px(14), rect.high.y - ui.px(14) - size.y - 2 * pad.y};
   const ImVec2 high{low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -171,6 +169,12 @@ void draw_moment(const Ui& ui, const Rect& rect) {
 
 }  // namespace
 
+bool tells_selection(const UiState& state, const model::Session& session) {
+  // The inspector says it better.
+  const bool inspected = state.tab == SideTab::inspect && !state.panels_hidden;
+  return session.selected_triangle && session.current && !inspected;
+}
+
 void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(color::kBackdrop));
@@ -195,7 +199,8 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   if (ui.session.current) draw_compare_bar(ui, rect);
-  draw_notice(ui, rect);
+  const bool bar = ui.session.current != nullptr;
+  draw_notice(ui, rect, bar ? compare_bar_height(ui.state, rect.width(), ui.scale) : 0);
 }
 
 }  // namespace isorelax::ui

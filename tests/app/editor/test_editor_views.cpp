@@ -228,6 +228,41 @@ TEST_F(EditorViews, ASavedPictureShowsTheComparisonAsTheViewportDoes) {
   }
 }
 
+TEST_F(EditorViews, AnotherNumberOfPanesIsFramedAgainUnlessTheCameraWasMoved) {
+  open(folder.make_square());
+  const render::Camera whole = editor.camera();
+  compare(ui::CompareMode::side_by_side);
+  EXPECT_NE(editor.camera(), whole) << "half the room";
+  compare(ui::CompareMode::off);
+  EXPECT_EQ(editor.camera(), whole);
+  compare(ui::CompareMode::split);
+  EXPECT_EQ(editor.camera(), whole) << "the same room";
+  editor.ask(ui::PanView{30, 0});
+  const render::Camera moved = editor.camera();
+  compare(ui::CompareMode::side_by_side);
+  EXPECT_EQ(editor.camera(), moved);
+}
+
+TEST_F(EditorViews, AFramedMeshIsClearOfTheControls) {
+  open(folder.make_square());
+  const auto& rects = editor.interface().state().rects;
+  const ui::Rect viewport = rects.at("viewport");
+  ASSERT_LT(viewport.height(), viewport.width());
+  // Of the unit square, seen from above.
+  const double pixels_per_length = viewport.height() / editor.camera().extent;
+  const double top = viewport.center().y - (1 - editor.camera().target.y()) * pixels_per_length;
+  EXPECT_GT(top, rects.at("compare-bar").high.y);
+}
+
+TEST_F(EditorViews, ANoticeLeavesTheControlsOfTheComparisonFree) {
+  std::ofstream(folder / "flawed.off")
+      << "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n3 0 0 1\n";
+  open(folder / "flawed.off");
+  const auto& rects = editor.interface().state().rects;
+  ASSERT_TRUE(rects.contains("notice"));
+  EXPECT_GE(rects.at("notice").low.y, rects.at("compare-bar").high.y);
+}
+
 TEST_F(EditorViews, SideBySideOneLegendStandsBesideBothMeshes) {
   open(folder.make_square());
   EXPECT_FALSE(editor.interface().state().rects.contains("pane-legend"));

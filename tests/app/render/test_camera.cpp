@@ -109,6 +109,23 @@ TEST(Camera, orbit_stops_at_the_poles_and_keeps_azimuth_readable) {
   EXPECT_LT(orbit(Camera(), 10, 0, kSize).azimuth_deg, 0) << "the object follows the pointer";
 }
 
+TEST(Fit, keeps_clear_of_what_is_laid_over_the_top_and_the_bottom) {
+  const TriangleMesh mesh = torus(40, 20);
+  FitOptions options;
+  options.top = 0.2;
+  options.bottom = 0.1;
+  for (const PictureSize size : {PictureSize{400, 300}, PictureSize{300, 400}, PictureSize{900, 200}})
+    for (const char* view : {"fit", "front", "top", "iso:orthographic"}) {
+      const Camera camera = parse_camera(view, mesh.positions, size, options);
+      const double margin = options.margin * std::min(size.width, size.height);
+      for (const Vec3& p : mesh.positions) {
+        const Eigen::Vector2d at = pixel_of(camera, size, p);
+        EXPECT_GT(at.y(), margin + 0.2 * size.height - 0.1) << view;
+        EXPECT_LT(at.y(), size.height - margin - 0.1 * size.height + 0.1) << view;
+      }
+    }
+}
+
 TEST(Fit, every_vertex_is_in_the_free_part_and_some_touch_it) {
   const TriangleMesh mesh = torus(40, 20);
   FitOptions options;
