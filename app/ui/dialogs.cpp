@@ -10,6 +10,7 @@ bool begin_dialog(const Ui& ui, const char* name, float width) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * display.x, 0.5F * display.y}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize({std::min(width, display.x - ui.px(32)), 0});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - ui.px(16)});  // a low window scrolls
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(22), ui.px(18)});
   const bool open = ImGui::BeginPopupModal(name, nullptr,
                                            ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kSmallestPanel = 240;  // points
 constexpr float kLargestPanel = 560;
-constexpr float kSmallestViewport = 160;
+constexpr float kSmallestViewport = 300;  // of the transport and a menu of stages
 
 // A thin invisible handle between a panel and the viewport; `direction` is the sign of growth to the right.
 void draw_splitter(const Ui& ui, const char* name, float x, const Rect& beside, float direction,

@@ -56,6 +56,8 @@ void draw_debug(const Ui& ui);
 void draw_runs(const Ui& ui);
 /// Transport, stages and track of the timeline.
 void draw_timeline(const Ui& ui, const Rect& rect);
+/// The stages of the shown step behind what is in the line, up to `right`, in pixels.
+void draw_stages(const Ui& ui, float right);
 /// Goes on with a timeline that plays.
 void play(const Ui& ui, float seconds);
 void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image);

@@ -82,12 +82,10 @@ void draw_status_bar(const Ui& ui, const Rect& rect) {
                      ui.session.messages.back().kind == model::MessageKind::error;
   const float room = right - left;
   if (!text.empty() && room > ui.px(60)) {
-    ImGui::PushFont(ui.fonts.small);
-    const float width = std::min(ImGui::CalcTextSize(text.c_str()).x, room);
-    ImGui::PopFont();
-    ImGui::SameLine(right - width);
+    const std::string shown = fitted(*ui.fonts.small, text, room);
+    ImGui::SameLine(right - text_width(*ui.fonts.small, shown));
     ImGui::SetCursorPosY(0.5F * (rect.height() - ui.fonts.small->FontSize));
-    text_in(ui.fonts.small, error ? color::kWorse : color::kText, text);
+    text_in(ui.fonts.small, error ? color::kWorse : color::kText, shown);
     mark_area(ui, "news", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
     tooltip(ui, text);
   }

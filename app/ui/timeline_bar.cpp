@@ -9,8 +9,6 @@
 namespace isorelax::ui {
 namespace {
 
-using model::Stage;
-using model::StageKind;
 using model::Timeline;
 
 ImU32 branch_color(std::size_t branch) {
@@ -25,7 +23,9 @@ struct Transport {
   bool enabled = true;
 };
 
-void draw_transport(const Ui& ui) {
+constexpr float kRoomForSpeed = 360;  // width of the timeline, in points
+
+void draw_transport(const Ui& ui, bool with_speed) {
   const Playing& playing = ui.state.playing;
   const bool recorded = !ui.session.timeline.empty();
   const bool forward = playing.direction > 0;
@@ -50,119 +50,13 @@ void draw_transport(const Ui& ui) {
     tooltip(ui, t.tip, keys_of(t.action));
     ImGui::SameLine(0, ui.px(1));
   }
+  if (!with_speed) return;
   const auto speed = static_cast<std::size_t>(playing.speed);
   ImGui::SameLine(0, ui.px(5));
   const std::string label = number_text("%.0f", kPlaySpeeds.at(speed)) + "/s";
   if (small_button(ui, "speed", label, {.width = ui.px(44), .height = ui.px(26)}))
     ui.state.playing.speed = static_cast<int>((speed + 1) % kPlaySpeeds.size());
   tooltip(ui, "Iterations per second when playing: the next speed.");
-}
-
-struct StageButton {
-  std::string label;
-  std::string_view tip;
-  Stage stage;
-  bool on = false;
-  bool enabled = true;
-};
-
-// The record of the shown step with its rounds; null while nobody has looked inside it.
-const StepRecord* record_of(const model::Session& s) {
-  const auto& view = s.inspection.step;
-  const model::Cursor& cursor = s.timeline.cursor;
-  const bool known = view && view->record->detail && view->at.branch == cursor.branch &&
-                     view->at.iteration == cursor.iteration;
-  return known ? view->record.get() : nullptr;
-}
-
-// Which round of its kind a pass is, and how many there are.
-std::string round_label(const model::StepSummary* step, const model::Session& s, Limit why,
-                        std::string_view name, std::optional<Stage>& first) {
-  const unsigned total = step == nullptr ? 0 : why == kLimitFold ? step->fold_passes : step->energy_passes;
-  unsigned at = 0;
-  if (const StepRecord* record = record_of(s)) {
-    unsigned seen = 0;
-    const auto& passes = record->detail->passes;
-    for (unsigned k = 0; k < passes.size(); ++k) {
-      if ((passes[k].why == kLimitEnergy) != (why == kLimitEnergy)) continue;
-      ++seen;
-      if (!first) first = Stage{StageKind::control, k};
-      if (s.timeline.cursor.stage == Stage{StageKind::control, k}) at = seen;
-    }
-  } else if (total > 0) {
-    // Which round that is is only known with the record: looking at any brings it (find_guard).
-    first = Stage{StageKind::control, 0};
-  }
-  if (total == 0) return std::string(name);
-  return std::string(name) + " " + (at > 0 ? std::to_string(at) + "/" : "") + std::to_string(total);
-}
-
-std::vector<StageButton> stage_buttons(const model::Session& s) {
-  const auto& chosen = s.timeline.cursor.stage;
-  const model::StepSummary* step = s.timeline.step(s.timeline.cursor.branch, s.timeline.cursor.iteration);
-  const auto plain = [&](std::string label, std::string_view tip, StageKind kind) {
-    return StageButton{std::move(label), tip, Stage{kind}, chosen == Stage{kind}};
-  };
-  std::vector<StageButton> buttons{
-      plain("Gradient", "Downhill: minus the gradient of the energy. Lengths compare with each other only.",
-            StageKind::gradient),
-      plain("Tangent", "What of it lies in the tangent plane, or along the ridge.", StageKind::tangent),
-      plain("Proposed", "The move that the solver makes of it.", StageKind::proposed)};
-  for (const Limit why : {kLimitFold, kLimitEnergy}) {
-    std::optional<Stage> first;
-    std::string label = round_label(step, s, why, why == kLimitFold ? "Control" : "Guard", first);
-    const bool on = label.find('/') != std::string::npos;
-    buttons.push_back(
-        {std::move(label),
-         why == kLimitFold
-             ? "Rounds of the step control: what folds, or goes too far from the surface, is cut back."
-             : "Rounds of the energy guard: where the energy rose is cut back.",
-         first.value_or(Stage{}), on, first.has_value()});
-  }
-  buttons.push_back(plain("Moved", "The move that was made.", StageKind::moved));
-  return buttons;
-}
-
-// Goes on from the round that brought the record to the first one of the guard.
-void find_guard(const Ui& ui) {
-  const model::Session& s = ui.session;
-  if (s.timeline.cursor.stage != Stage{StageKind::control, 0}) ui.state.seeks_guard = false;
-  const StepRecord* record = record_of(s);
-  if (!ui.state.seeks_guard || record == nullptr) return;
-  ui.state.seeks_guard = false;
-  const auto& passes = record->detail->passes;
-  const auto found = std::ranges::find(passes, kLimitEnergy, &ControlPass::why);
-  if (found != passes.end())
-    ui.command(model::SetStage{Stage{StageKind::control, static_cast<unsigned>(found - passes.begin())}});
-}
-
-void choose_stage(const Ui& ui, const StageButton& b) {
-  ui.command(model::SetStage{b.on ? std::nullopt : std::optional(b.stage)});
-  ui.state.seeks_guard = !b.on && b.label.starts_with("Guard") && record_of(ui.session) == nullptr;
-}
-
-void draw_stages(const Ui& ui, float right) {
-  find_guard(ui);
-  constexpr std::array<float, 6> kWidths{58, 56, 62, 74, 62, 50};
-  const auto buttons = stage_buttons(ui.session);
-  float width = 0;
-  for (const float w : kWidths) width += ui.px(w);
-  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - width), 0);
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + width, low.y + ui.px(26)}, color::kControl,
-                                            ImGui::GetStyle().FrameRounding);
-  for (std::size_t k = 0; k < buttons.size(); ++k) {
-    const StageButton& b = buttons[k];
-    if (k > 0) ImGui::SameLine(0, 0);
-    const std::string name = "stage/" + b.label.substr(0, b.label.find(' '));
-    if (small_button(ui, name, b.label,
-                     {.look = b.on ? ButtonLook::pressed : ButtonLook::quiet,
-                      .width = ui.px(kWidths.at(k)),
-                      .height = ui.px(26),
-                      .enabled = b.enabled && !ui.session.is_running()}))
-      choose_stage(ui, b);
-    tooltip(ui, b.enabled ? b.tip : "Nothing was cut back in this step.", keys_of(Action::next_stage));
-  }
 }
 
 std::string motion_caption(const model::Session& s, const model::Branch& branch) {
@@ -324,29 +218,39 @@ void draw_track(const Ui& ui, const Rect& area) {
   draw_hits(ui, track);
   draw_cursor(ui, track);
   const float line = ui.fonts.small->FontSize;
+  float free = area.low.x;
   for (const double t : round_ticks(0, track.last, s.moving() != nullptr ? 5 : 8)) {
     if (t != std::floor(t)) continue;
     std::string text = number_text("%.0f", t);
     if (const auto time = time_at(s, t)) text += "  (t " + number_text("%.3g", *time) + ")";
     const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
     draw.AddLine({track.x(t), area.high.y}, {track.x(t), area.high.y + ui.px(3)}, color::kLine);
-    draw.AddText(ui.fonts.small, line,
-                 {std::floor(std::clamp(track.x(t) - 0.5F * width, area.low.x, area.high.x - width)),
-                  area.high.y + ui.px(3)},
-                 color::kTextFaint, text.c_str());
+    const float x =
+        std::floor(std::min(std::max(track.x(t) - 0.5F * width, area.low.x), area.high.x - width));
+    if (x < free) continue;
+    free = x + width + ui.px(6);
+    draw.AddText(ui.fonts.small, line, {x, area.high.y + ui.px(3)}, color::kTextFaint, text.c_str());
   }
   scrub(ui, track);
 }
 
 // What the two curves behind the track are.
-void draw_key(const Ui& ui, float right, float y) {
+constexpr std::array<std::pair<std::string_view, ImU32>, 2> kCurves{
+    {{"smallest angle", color::kSecond}, {"energy", color::kAccent}}};
+
+float curve_key_width(const Ui& ui) {
+  float width = 0;
+  for (const auto& [label, ink] : kCurves) width += text_width(*ui.fonts.small, label) + ui.px(28);
+  return width;
+}
+
+void draw_curve_key(const Ui& ui, float right, float y) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float line = ui.fonts.small->FontSize;
-  constexpr std::array<std::pair<const char*, ImU32>, 2> kKey{
-      {{"smallest angle", color::kSecond}, {"energy", color::kAccent}}};
-  for (const auto& [label, ink] : kKey) {
-    right -= ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, label).x;
-    draw.AddText(ui.fonts.small, line, {std::floor(right), y}, color::kTextFaint, label);
+  for (const auto& [label, ink] : kCurves) {
+    right -= text_width(*ui.fonts.small, label);
+    draw.AddText(ui.fonts.small, line, {std::floor(right), y}, color::kTextFaint, label.data(),
+                 label.data() + label.size());
     right -= ui.px(16);
     draw.AddLine({right, y + 0.55F * line}, {right + ui.px(11), y + 0.55F * line}, ink, ui.px(1.5F));
     right -= ui.px(12);
@@ -358,16 +262,19 @@ void draw_key(const Ui& ui, float right, float y) {
 void draw_timeline(const Ui& ui, const Rect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(8)});
   begin_panel("timeline", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  draw_transport(ui);
+  draw_transport(ui, rect.width() >= ui.px(kRoomForSpeed));
   // Steps of a moving surface have no stages.
-  if (!ui.session.timeline.empty() && ui.session.moving() == nullptr && rect.width() > ui.px(610))
+  if (!ui.session.timeline.empty() && ui.session.moving() == nullptr)
     draw_stages(ui, rect.width() - ui.px(14));
   const float line = ui.fonts.small->FontSize;
   const float top = rect.low.y + ui.px(41);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string text = caption(ui.session);
+  const float room = rect.width() - 2 * ui.px(14);
+  const std::string text = fitted(*ui.fonts.small, caption(ui.session), room);
   draw.AddText(ui.fonts.small, line, {rect.low.x + ui.px(14), top}, color::kTextDim, text.c_str());
-  if (!ui.session.timeline.empty()) draw_key(ui, rect.high.x - ui.px(14), top);
+  const float left = room - text_width(*ui.fonts.small, text);
+  if (!ui.session.timeline.empty() && curve_key_width(ui) <= left)
+    draw_curve_key(ui, rect.high.x - ui.px(14), top);
   draw_track(ui, {{rect.low.x + ui.px(16), top + line + ui.px(8)},
                   {rect.high.x - ui.px(16), rect.high.y - line - ui.px(6)}});
   draw.AddLine(rect.low, {rect.high.x, rect.low.y}, color::kLine);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "ui/panels.h"
@@ -22,7 +23,7 @@ void tool(const Ui& ui, const Tool& t) {
   ImGui::SameLine(0, ui.px(2));
 }
 
-void draw_colorings(const Ui& ui) {
+void draw_colorings(const Ui& ui, float width) {
   constexpr std::array<std::string_view, 5> kLabels{"Min angle", "Max angle", "Area", "Energy", "Plain"};
   constexpr std::array kColorings{model::Coloring::min_angle, model::Coloring::max_angle,
                                   model::Coloring::relative_area, model::Coloring::energy,
@@ -30,7 +31,7 @@ void draw_colorings(const Ui& ui) {
   int chosen = 0;
   for (int k = 0; k < 5; ++k)
     if (kColorings[static_cast<std::size_t>(k)] == ui.session.view.coloring) chosen = k;
-  const int choice = segmented(ui, "coloring", kLabels, chosen, ui.px(390));
+  const int choice = segmented(ui, "coloring", kLabels, chosen, width);
   tooltip(ui, "What the colours of the triangles say. Keys 1 to 5.");
   if (choice < 0) return;
   model::ViewSettings view = ui.session.view;
@@ -79,12 +80,12 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
             .action = Action::redo,
             .enabled = redo != nullptr});
 
-  const float center = 0.5F * (rect.width() - ui.px(390));
-  ImGui::SameLine(std::max(center, ImGui::GetCursorPosX() + ui.px(10)), 0);
-  draw_colorings(ui);
-
   const float tools = button_width(ui, "Edges", Icon::wire) + button_width(ui, "Smooth", Icon::none) +
                       button_width(ui, "Frame", Icon::frame) + button_width(ui, "", Icon::help) + ui.px(20);
+  const float left = ImGui::GetCursorPosX() + ui.px(10);
+  const float width = std::clamp(rect.width() - tools - left - ui.px(10), ui.px(200), ui.px(390));
+  ImGui::SameLine(std::max(0.5F * (rect.width() - width), left), 0);
+  draw_colorings(ui, width);
   ImGui::SameLine(std::max(rect.width() - tools, ImGui::GetCursorPosX() + ui.px(10)), 0);
   tool(ui, {.name = "wire",
             .label = "Edges",

@@ -54,8 +54,9 @@ void value_row(const Ui& ui, const ValueRow& row) {
                        ImGui::IsItemActive() ? color::kControlActive : color::kControl, ui.px(4));
   const float y = low.y + ui.px(2);
   draw.AddText({low.x, y}, color::kTextDim, row.label.data(), row.label.data() + row.label.size());
-  const float text = ImGui::CalcTextSize(row.shown.c_str()).x;
-  draw.AddText({std::floor(low.x + width - text), y}, row.color, row.shown.c_str());
+  const ImFont& font = *ImGui::GetFont();
+  const std::string shown = fitted(font, row.shown, width - text_width(font, row.label) - ui.px(8));
+  draw.AddText({std::floor(low.x + width - text_width(font, shown)), y}, row.color, shown.c_str());
   if (hovered) tooltip(ui, std::string(row.tip) + (row.tip.empty() ? "" : "\n") + copied, "Click to copy");
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace isorelax::ui {
 namespace {
@@ -74,19 +75,17 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
   ImGui::PopStyleColor(3);
   mark(ui, name);
   const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 text =
-      label.empty() ? ImVec2(0, 0) : ImGui::CalcTextSize(label.data(), label.data() + label.size());
   const float icon = style.icon != Icon::none ? ui.px(14) : 0;
   const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
+  const std::string shown = fitted(*ImGui::GetFont(), label, width - icon - gap);
+  const ImVec2 text = ImGui::CalcTextSize(shown.c_str());
   float x = low.x + 0.5F * (width - icon - gap - text.x);
   if (style.align == ButtonAlign::left) x = low.x + ImGui::GetStyle().FramePadding.x;
   const ImU32 color = ImGui::GetColorU32(colors.text);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (icon > 0) draw_icon(draw, style.icon, {x + 0.5F * icon, low.y + 0.5F * height}, icon, color);
   x += icon + gap;
-  if (!label.empty())
-    draw.AddText({std::floor(x), std::floor(low.y + 0.5F * (height - text.y))}, color, label.data(),
-                 label.data() + label.size());
+  draw.AddText({std::floor(x), std::floor(low.y + 0.5F * (height - text.y))}, color, shown.c_str());
   ImGui::EndDisabled();
   return pressed;
 }
@@ -149,17 +148,22 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view keys) {
   ImGui::PopStyleVar();
 }
 
-int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen) {
+int menu(const Ui& ui, std::string_view name, std::span<const MenuEntry> entries, int chosen) {
   int result = -1;
   const std::string id = "##" + std::string(name);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float width = ImGui::CalcItemWidth();
-  const std::string preview(labels[static_cast<std::size_t>(chosen)]);
+  const float height = ImGui::GetFrameHeight();
+  const float room = width - height - 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string preview =
+      fitted(*ImGui::GetFont(), entries[static_cast<std::size_t>(chosen)].label, room);
   if (ImGui::BeginCombo(id.c_str(), preview.c_str())) {
-    mark_area(ui, name, {low, {low.x + width, low.y + ImGui::GetFrameHeight()}});
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-      const std::string label(labels[k]);
-      if (ImGui::Selectable(label.c_str(), chosen == static_cast<int>(k))) result = static_cast<int>(k);
+    mark_area(ui, name, {low, {low.x + width, low.y + height}});
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const std::string& label = entries[k].label;
+      const auto flags = entries[k].enabled ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+      if (ImGui::Selectable(label.c_str(), chosen == static_cast<int>(k), flags))
+        result = static_cast<int>(k);
       mark_area(ui, std::string(name) + "/" + label, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
     }
     ImGui::EndCombo();
@@ -167,6 +171,12 @@ int combo(const Ui& ui, std::string_view name, std::span<const std::string_view>
     mark(ui, name);
   }
   return result;
+}
+
+int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen) {
+  std::vector<MenuEntry> entries;
+  for (const std::string_view label : labels) entries.push_back({std::string(label)});
+  return menu(ui, name, entries, chosen);
 }
 
 std::string count_text(std::size_t count) {

@@ -71,6 +71,12 @@ void row_label(const Ui& ui, std::string_view label, std::string_view tip);
 void tooltip(const Ui& ui, std::string_view text, std::string_view keys = {});
 /// A combo box over labels; the new choice, or -1.
 int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen);
+struct MenuEntry {
+  std::string label;
+  bool enabled = true;
+};
+/// The same where not everything can be chosen at all times.
+int menu(const Ui& ui, std::string_view name, std::span<const MenuEntry> entries, int chosen);
 void text_in(ImFont* font, ImU32 color, std::string_view text);
 
 /// A number or a few words beside their name, over the whole width. A click copies `exact`.

@@ -45,6 +45,11 @@ struct WindowDeleter {
 };
 using WindowPtr = std::unique_ptr<GLFWwindow, WindowDeleter>;
 
+// In points: both panels at their usual widths with the transport between them; and half of a Full HD
+// display, which is all of one at twice the scale.
+constexpr int kLeastWidth = 960;
+constexpr int kLeastHeight = 540;
+
 // Points of the wanted size for which the screen has room.
 std::pair<int, int> size_on_screen(const WindowOptions& options) {
   std::pair<int, int> size{options.width, options.height};
@@ -74,7 +79,13 @@ WindowPtr create_window(const WindowOptions& options) {
     throw UsageError("no window with OpenGL 3.3 can be opened" +
                      (reason != nullptr ? " (" + std::string(reason) + ")" : std::string()));
   }
-  glfwSetWindowSizeLimits(window.get(), 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  // What GLFW counts in may be pixels or points.
+  int opened = width;
+  glfwGetWindowSize(window.get(), &opened, nullptr);
+  const double per_point = static_cast<double>(opened) / width;
+  glfwSetWindowSizeLimits(window.get(), static_cast<int>(std::min(kLeastWidth, width) * per_point),
+                          static_cast<int>(std::min(kLeastHeight, height) * per_point), GLFW_DONT_CARE,
+                          GLFW_DONT_CARE);
   return window;
 }
 
