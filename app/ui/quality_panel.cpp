@@ -76,6 +76,25 @@ void right_aligned(const Ui& ui, const std::string& text, ImU32 color) {
   text_in(ui.fonts.text, color, text);
 }
 
+enum class Verdict : std::uint8_t { better, worse };
+
+// Before a number, for eyes that do not tell its colours: a tick, or an exclamation mark. Returns its place.
+Rect draw_verdict(const Ui& ui, const Rect& number, Verdict verdict) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 at{number.low.x - ui.px(10), number.center().y};
+  const float r = ui.px(3.5F);
+  const float width = ui.px(1.75F);
+  if (verdict == Verdict::better) {
+    const std::array<ImVec2, 3> tick{
+        {{at.x - r, at.y}, {at.x - 0.25F * r, at.y + 0.8F * r}, {at.x + r, at.y - r}}};
+    draw.AddPolyline(tick.data(), static_cast<int>(tick.size()), color::kBetter, ImDrawFlags_None, width);
+  } else {
+    draw.AddLine({at.x, at.y - 1.3F * r}, {at.x, at.y + 0.2F * r}, color::kWorse, width);
+    draw.AddCircleFilled({at.x, at.y + 1.1F * r}, 0.6F * width, color::kWorse);
+  }
+  return {{at.x - r, at.y - r}, {at.x + r, at.y + r}};
+}
+
 void draw_figure(const Ui& ui, const Figure& f) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -91,8 +110,15 @@ void draw_figure(const Ui& ui, const Figure& f) {
   const bool same = text(f.before) == text(f.now);
   const bool better = f.better == Better::larger ? f.now > f.before : f.now < f.before;
   const bool plain = same || f.better == Better::none || !std::isfinite(f.now);
-  right_aligned(ui, text(f.now), plain ? color::kText : better ? color::kBetter : color::kWorse);
-  mark_area(ui, "figure/" + std::string(f.label), {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  const ImU32 ink = plain ? color::kText : better ? color::kBetter : color::kWorse;
+  right_aligned(ui, text(f.now), ink);
+  const Rect number{ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
+  const std::string name = "figure/" + std::string(f.label);
+  mark_area(ui, name, number);
+  if (plain) return;
+  tooltip(ui, better ? "Better than the original." : "Worse than the original.");
+  mark_area(ui, name + (better ? "/better" : "/worse"),
+            draw_verdict(ui, number, better ? Verdict::better : Verdict::worse));
 }
 
 void draw_table(const Ui& ui) {

@@ -21,20 +21,22 @@ inline constexpr ImU32 kAccent = IM_COL32(242, 140, 79, 255);
 inline constexpr ImU32 kAccentHover = IM_COL32(250, 160, 106, 255);
 inline constexpr ImU32 kAccentActive = IM_COL32(219, 120, 62, 255);
 inline constexpr ImU32 kOnAccent = IM_COL32(30, 20, 12, 255);
-inline constexpr ImU32 kBetter = IM_COL32(122, 205, 150, 255);
-inline constexpr ImU32 kWorse = IM_COL32(240, 128, 122, 255);
+// The hues below differ by 12 or more (CIE 1976, as sRGB is seen) with full colour vision, without the red
+// and without the green cones.
+inline constexpr ImU32 kBetter = IM_COL32(120, 208, 158, 255);
+inline constexpr ImU32 kWorse = IM_COL32(235, 122, 108, 255);
 inline constexpr ImU32 kWarning = IM_COL32(233, 196, 106, 255);
 inline constexpr ImU32 kSecond = IM_COL32(112, 178, 214, 255);  ///< a second line in a plot
 /// What limited a vertex, by bit of Limit: pinned, corner, ridge, boundary, fold, energy, surface, converged.
 inline constexpr ImU32 kLimits[8] = {
-    IM_COL32(198, 120, 221, 255), IM_COL32(226, 68, 92, 255),   IM_COL32(240, 200, 80, 255),
-    IM_COL32(86, 156, 255, 255),  IM_COL32(255, 122, 61, 255),  IM_COL32(64, 201, 198, 255),
-    IM_COL32(150, 120, 90, 255),  IM_COL32(110, 190, 120, 255),
+    IM_COL32(194, 116, 210, 255), IM_COL32(218, 60, 86, 255),   IM_COL32(244, 203, 82, 255),
+    IM_COL32(73, 147, 251, 255),  IM_COL32(255, 122, 61, 255),  IM_COL32(64, 201, 198, 255),
+    IM_COL32(159, 134, 116, 255), IM_COL32(111, 191, 121, 255),
 };
 /// Branches of the timeline, in turn.
 inline constexpr ImU32 kBranches[6] = {
-    IM_COL32(242, 140, 79, 255),  IM_COL32(112, 178, 214, 255), IM_COL32(122, 205, 150, 255),
-    IM_COL32(198, 150, 230, 255), IM_COL32(233, 196, 106, 255), IM_COL32(226, 110, 140, 255),
+    IM_COL32(234, 133, 73, 255),  IM_COL32(125, 172, 194, 255), IM_COL32(130, 211, 154, 255),
+    IM_COL32(197, 151, 233, 255), IM_COL32(241, 203, 114, 255), IM_COL32(223, 108, 139, 255),
 };
 /// Arrows of the stages: gradient, tangent, proposed, control, moved.
 inline constexpr ImU32 kStages[5] = {

@@ -21,6 +21,7 @@ TEST_F(InterfaceTest, StepChangesRecordColoursAndNumbers) {
   EXPECT_FALSE(std::ranges::equal(before, after));
   EXPECT_NE(session.current->quality().mean_min_angle_deg, mean_before);
   EXPECT_TRUE(shows("figure/Mean smallest"));
+  EXPECT_TRUE(shows("figure/Mean smallest/better")) << "not by its colour alone";
 }
 
 TEST_F(InterfaceTest, TheSameDoneByKeys) {
