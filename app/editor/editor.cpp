@@ -321,7 +321,11 @@ void Editor::carry_out_request(const ui::Request& request) {
     const auto [x, y] = in_pane(zoom->x, zoom->y);
     camera_ = render::zoom_to(camera_, zoom->factor, x, y, pane());
   } else if (std::holds_alternative<ui::FrameView>(request)) {
-    if (session_.current) fly_to(framed_ = framed());
+    if (session_.current) fly_to(framed_ = framed(camera_));
+  } else if (const auto* from = std::get_if<ui::LookFrom>(&request)) {
+    if (session_.current)
+      fly_to(framed_ = framed(
+                 render::parse_camera(from->view, session_.current->positions(), pane(), fit_options())));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
       fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));

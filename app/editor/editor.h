@@ -100,7 +100,7 @@ class Editor {
   void follow_motion();
   void follow_panes();
   [[nodiscard]] bool shows_names() const;
-  [[nodiscard]] render::Camera framed();
+  [[nodiscard]] render::Camera framed(const render::Camera& camera);
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
   [[nodiscard]] std::size_t panes() const;

@@ -36,16 +36,16 @@ void Editor::follow_document() {
 }
 
 // A camera that shows the whole mesh; of a moving surface all moments, so that it serves every one of them.
-render::Camera Editor::framed() {
+render::Camera Editor::framed(const render::Camera& camera) {
   const model::Branch* branch = session_.moving();
   if (branch == nullptr || branch->box.isEmpty())
-    return render::fit(camera_, session_.current->positions(), pane(), fit_options());
+    return render::fit(camera, session_.current->positions(), pane(), fit_options());
   framed_box_ = branch->box;
   std::array<Vec3, 8> corners;
   for (int k = 0; k < 8; ++k)
     corners.at(static_cast<std::size_t>(k)) =
         branch->box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k));
-  return render::fit(camera_, corners, pane(), fit_options());
+  return render::fit(camera, corners, pane(), fit_options());
 }
 
 // A camera that nobody has turned since it framed the mesh goes on to frame it.
@@ -53,7 +53,7 @@ void Editor::follow_motion() {
   const model::Branch* branch = session_.moving();
   if (branch == nullptr || branch->box.isEmpty() || flight_ || !(camera_ == framed_)) return;
   if (!framed_box_.isEmpty() && framed_box_.contains(branch->box)) return;
-  camera_ = framed_ = framed();
+  camera_ = framed_ = framed(camera_);
 }
 
 // Keeps the mesh clear of the legend, of the controls at the top and of the names at the bottom.
@@ -76,7 +76,7 @@ bool Editor::shows_names() const {
 void Editor::follow_panes() {
   if (!session_.current || panes() == framed_panes_) return;
   framed_panes_ = panes();
-  if (!flight_ && camera_ == framed_) camera_ = framed_ = framed();
+  if (!flight_ && camera_ == framed_) camera_ = framed_ = framed(camera_);
 }
 
 void Editor::move_camera(double time) {

@@ -196,6 +196,7 @@ void perform(const Ui& ui, Action action) {
       perform_file_action(ui, action);
       perform_inspection(ui, action);
       perform_view_action(ui, action);
+      perform_camera_action(ui, action);
   }
 }
 

@@ -27,8 +27,8 @@ bool escape_pressed() {
 void draw_shortcut_group(const Ui& ui, std::string_view group) {
   text_in(ui.fonts.heading, color::kAccent, group);
   for (const Shortcut& shortcut : shortcuts()) {
-    if (shortcut.group != group) continue;
-    text_in(ui.fonts.text, color::kText, shortcut.keys);
+    if (shortcut.group != group || shortcut.text.empty()) continue;
+    text_in(ui.fonts.text, color::kText, shortcut.listed.empty() ? shortcut.keys : shortcut.listed);
     ImGui::SameLine(ui.px(118));
     text_in(ui.fonts.text, color::kTextDim, shortcut.text);
   }
@@ -43,6 +43,7 @@ void draw_pointer_help(const Ui& ui) {
       {"Wheel", "Zoom to the pointer"},
       {"Tab, Shift+Tab", "To the next control and back"},
       {"Arrows, Space, Enter", "Use the control with the focus"},
+      {"Left, Right", "Choose among buttons side by side"},
       {"Escape", "Leave the controls, close a dialog"},
       {"Drop a file", "Open it"},
   };

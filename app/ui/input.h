@@ -52,6 +52,8 @@ enum class Key : std::uint8_t {
   digit3,
   digit4,
   digit5,
+  digit6,
+  digit7,
   question,
   f1,
   f12,

@@ -12,10 +12,16 @@ namespace isorelax::ui {
 namespace {
 
 // Keys that move between or work on controls, and are shortcuts while no control has the focus.
-bool drives_controls(Key key) {
+bool drives_controls(const KeyChanged& press) {
   constexpr std::array kKeys{Key::left,  Key::right, Key::up,   Key::down,
                              Key::space, Key::enter, Key::home, Key::end};
-  return std::ranges::find(kKeys, key) != kKeys.end();
+  return !press.modifiers.control && std::ranges::find(kKeys, press.key) != kKeys.end();
+}
+
+// Left and right among choices side by side: the step; else 0.
+int segment_step(const KeyChanged& press) {
+  if (press.modifiers != Modifiers{}) return 0;
+  return press.key == Key::right ? 1 : press.key == Key::left ? -1 : 0;
 }
 
 bool dialog_open() {
@@ -23,7 +29,8 @@ bool dialog_open() {
 }
 
 bool is_text_shortcut(const KeyChanged& press) {
-  constexpr std::array kKeys{Key::a, Key::c, Key::v, Key::x, Key::z, Key::y};
+  constexpr std::array kKeys{Key::a, Key::c,    Key::v,     Key::x,  Key::z,
+                             Key::y, Key::left, Key::right, Key::up, Key::down};
   return !press.modifiers.control || std::ranges::find(kKeys, press.key) != kKeys.end();
 }
 
@@ -68,19 +75,23 @@ Output Interface::frame(const model::Session& session, const FrameOptions& optio
     if (press.key == Key::tab) return true;
     if (dialog_open()) return false;
     if (io.WantTextInput) return !is_text_shortcut(press);
-    if (!state_.focused.empty() && drives_controls(press.key)) return false;
+    if (state_.segment_focused && segment_step(press) != 0) return true;
+    if (!state_.focused.empty() && drives_controls(press)) return false;
     return find_shortcut(press) != nullptr;
   });
   const bool text_before = io.WantTextInput;
-  state_.focus_request.clear();
+  state_.focus_request = std::exchange(state_.next_focus, {});
+  state_.segment_step = 0;
   ImGui::NewFrame();
-  for (const KeyChanged& press : pressed)
+  for (const KeyChanged& press : pressed) {
     if (press.key == Key::tab) move_focus(press.modifiers.shift ? -1 : 1);
+    if (state_.segment_focused && !dialog_open()) state_.segment_step += segment_step(press);
+  }
   if (!dialog_open()) {
     std::vector<KeyChanged> usable;
     std::ranges::copy_if(pressed, std::back_inserter(usable), [&](const KeyChanged& press) {
       if (text_before) return !is_text_shortcut(press);
-      return state_.focused.empty() || !drives_controls(press.key);
+      return state_.focused.empty() || !drives_controls(press);
     });
     handle_keys(ui, usable);
   }
@@ -131,6 +142,7 @@ void Interface::draw(const Ui& ui, const FrameOptions& options) {
   state_.rects.clear();
   state_.stops.clear();
   state_.focused.clear();
+  state_.segment_focused = false;
   state_.has_mesh = ui.session.current != nullptr;
   const Layout layout = make_layout(state_, options.display, scale_);
   play(ui, options.seconds);

@@ -75,6 +75,8 @@ void open_file(const Ui& ui, const std::filesystem::path& path);
 void open_sphere(const Ui& ui, const SphereStart& sphere);
 /// Carries out what a shortcut or a button asks for.
 void perform(const Ui& ui, Action action);
+/// The same for what moves the camera; nothing for others.
+void perform_camera_action(const Ui& ui, Action action);
 
 /// Begins a panel: a window that fills a rectangle and cannot be moved. Ends with ImGui::End().
 void begin_panel(const char* name, const Rect& rect, ImGuiWindowFlags flags = 0);

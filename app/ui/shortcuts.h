@@ -49,6 +49,23 @@ enum class Action : std::uint8_t {
   pin,
   save_trace,
   task,
+  turn_left,
+  turn_right,
+  turn_up,
+  turn_down,
+  pan_left,
+  pan_right,
+  pan_up,
+  pan_down,
+  zoom_in,
+  zoom_out,
+  view_front,
+  view_back,
+  view_left,
+  view_right,
+  view_top,
+  view_bottom,
+  view_iso,
 };
 
 struct Shortcut {
@@ -56,8 +73,9 @@ struct Shortcut {
   Modifiers modifiers;
   Action action;
   std::string_view keys;  ///< as people write it: "Ctrl+Shift+S"
-  std::string_view text;  ///< what it does
+  std::string_view text;  ///< what it does; empty: told by the one before
   std::string_view group;
+  std::string_view listed{};  ///< keys that the help page names instead, of several shortcuts
 };
 
 /// All shortcuts in the order of the help page.

@@ -40,6 +40,10 @@ struct ZoomView {
   float x = 0, y = 0;  ///< pixel of the viewport that stays in place
 };
 struct FrameView {};
+/// Turns to a standard view, and frames it.
+struct LookFrom {
+  std::string_view view;  ///< as `isorelax render --camera` calls it
+};
 struct FlyToSelection {};
 /// Selects what is under a pixel of the viewport: a vertex where one is near, else the triangle.
 struct PickAt {
@@ -65,8 +69,9 @@ struct CompareWithFile {
   std::filesystem::path path;
 };
 struct Quit {};
-using Request = std::variant<OrbitView, PanView, ZoomView, FrameView, FlyToSelection, PickAt, SavePicture,
-                             SaveScript, CopyView, PasteView, RememberState, CompareWithFile, Quit>;
+using Request =
+    std::variant<OrbitView, PanView, ZoomView, FrameView, LookFrom, FlyToSelection, PickAt, SavePicture,
+                 SaveScript, CopyView, PasteView, RememberState, CompareWithFile, Quit>;
 
 /// What one frame of the interface asks for, in order.
 struct Output {
@@ -175,8 +180,11 @@ struct UiState {
   std::map<std::string, Rect, std::less<>> rects;
   /// Names of the widgets that Tab stops at, in the order of drawing.
   std::vector<std::string> stops;
-  std::string focus_request;  ///< gets the keyboard focus in this frame
-  std::string focused;        ///< has it; empty: the viewport
+  std::string focus_request;     ///< gets the keyboard focus in this frame
+  std::string focused;           ///< has it; empty: the viewport
+  std::string next_focus;        ///< gets it in the next frame
+  bool segment_focused = false;  ///< one of choices side by side has it: arrows choose
+  int segment_step = 0;          ///< what they chose in this frame: 1 the next, -1 the one before
 };
 
 /// What the functions that draw panels share.

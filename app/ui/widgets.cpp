@@ -29,17 +29,9 @@ ButtonColors colors_of(ButtonLook look) {
   return {color::kControl, color::kControlHover, color::kControlActive, color::kText};
 }
 
-}  // namespace
-
-void mark_area(const Ui& ui, std::string_view name, const Rect& rect) {
-  ui.state.rects.insert_or_assign(std::string(name), rect);
-}
-
-void mark(const Ui& ui, std::string_view name) {
-  mark_area(ui, name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+// Gives the last item the keyboard focus where it is asked for, and notes whether it has it.
+void follow_focus(const Ui& ui, std::string_view name) {
   const ImGuiID id = ImGui::GetItemID();
-  if (id == 0 || (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0) return;
-  ui.state.stops.emplace_back(name);
   if (ui.state.focus_request == name) {
     ImGuiContext& g = *ImGui::GetCurrentContext();
     ImGui::FocusWindow(ImGui::GetCurrentWindow());
@@ -51,6 +43,20 @@ void mark(const Ui& ui, std::string_view name) {
   const bool highlighted = ImGui::GetFocusID() == id && !ImGui::GetCurrentContext()->NavDisableHighlight;
   const bool typed_into = ImGui::GetIO().WantTextInput && ImGui::GetActiveID() == id;
   if (highlighted || typed_into) ui.state.focused = name;
+}
+
+}  // namespace
+
+void mark_area(const Ui& ui, std::string_view name, const Rect& rect) {
+  ui.state.rects.insert_or_assign(std::string(name), rect);
+}
+
+void mark(const Ui& ui, std::string_view name) {
+  mark_area(ui, name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  const ImGuiID id = ImGui::GetItemID();
+  if (id == 0 || (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0) return;
+  ui.state.stops.emplace_back(name);
+  follow_focus(ui, name);
 }
 
 float button_width(const Ui& ui, std::string_view label, Icon icon) {
@@ -73,7 +79,12 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
   const std::string id = "##" + std::string(name);
   const bool pressed = ImGui::Button(id.c_str(), {width, height});
   ImGui::PopStyleColor(3);
-  mark(ui, name);
+  if (style.stop) {
+    mark(ui, name);
+  } else {
+    mark_area(ui, name, {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+    follow_focus(ui, name);
+  }
   const ImVec2 low = ImGui::GetItemRectMin();
   const float icon = style.icon != Icon::none ? ui.px(14) : 0;
   const float gap = icon > 0 && !label.empty() ? ui.px(7) : 0;
@@ -98,15 +109,26 @@ int segmented(const Ui& ui, std::string_view name, std::span<const std::string_v
   ImGui::GetWindowDrawList()->AddRectFilled(
       low, {low.x + each * static_cast<float>(labels.size()), low.y + ui.px(size::kControl)},
       ImGui::GetColorU32(color::kControl), ImGui::GetStyle().FrameRounding);
-  for (std::size_t k = 0; k < labels.size(); ++k) {
+  const int last = static_cast<int>(labels.size()) - 1;
+  const int stop = std::clamp(chosen, 0, last);
+  const auto id_of = [&](int k) {
+    return std::string(name) + "/" + std::string(labels[static_cast<std::size_t>(k)]);
+  };
+  bool focused = false;
+  for (int k = 0; k <= last; ++k) {
     if (k > 0) ImGui::SameLine(0, 0);
-    const bool on = chosen == static_cast<int>(k);
-    const std::string id = std::string(name) + "/" + std::string(labels[k]);
-    if (button(ui, id, labels[k], {.look = on ? ButtonLook::pressed : ButtonLook::quiet, .width = each}) &&
-        !on)
-      result = static_cast<int>(k);
+    const bool on = chosen == k;
+    const ButtonStyle style{
+        .look = on ? ButtonLook::pressed : ButtonLook::quiet, .width = each, .stop = k == stop};
+    if (button(ui, id_of(k), labels[static_cast<std::size_t>(k)], style) && !on) result = k;
+    focused = focused || ui.state.focused == id_of(k);
   }
-  return result;
+  if (!focused) return result;
+  ui.state.segment_focused = true;
+  const int next = std::clamp(stop + ui.state.segment_step, 0, last);
+  if (ui.state.segment_step == 0 || next == chosen) return result;
+  ui.state.next_focus = id_of(next);
+  return next;
 }
 
 void heading(const Ui& ui, std::string_view text) {

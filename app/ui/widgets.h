@@ -41,6 +41,7 @@ struct ButtonStyle {
   float height = 0;  ///< pixels; 0: a control's height
   ButtonAlign align = ButtonAlign::center;
   bool enabled = true;
+  bool stop = true;  ///< Tab stops at it
 };
 
 /// Notes where the widget just drawn is, under a name that tests and keyboard focus use.
@@ -53,7 +54,7 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
 /// The width that such a button takes when none is given, in pixels.
 float button_width(const Ui& ui, std::string_view label, Icon icon);
 
-/// Choices side by side, one of them pressed. The new choice, or -1.
+/// Choices side by side, one of them pressed: one stop for Tab, left and right choose. The new choice, or -1.
 int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen,
               float width);
 

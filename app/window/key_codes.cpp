@@ -52,6 +52,8 @@ ui::Key key_of(int glfw_key) {
       std::pair{GLFW_KEY_3, Key::digit3},
       std::pair{GLFW_KEY_4, Key::digit4},
       std::pair{GLFW_KEY_5, Key::digit5},
+      std::pair{GLFW_KEY_6, Key::digit6},
+      std::pair{GLFW_KEY_7, Key::digit7},
       std::pair{GLFW_KEY_F1, Key::f1},
       std::pair{GLFW_KEY_F12, Key::f12},
   };

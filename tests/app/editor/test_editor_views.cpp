@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -241,6 +242,20 @@ TEST_F(EditorViews, AnotherNumberOfPanesIsFramedAgainUnlessTheCameraWasMoved) {
   const render::Camera moved = editor.camera();
   compare(ui::CompareMode::side_by_side);
   EXPECT_EQ(editor.camera(), moved);
+}
+
+TEST_F(EditorViews, StandardViewsAreThoseOfRender) {
+  (void)write_mesh(folder / "ball.ply", generate(ShapeKind::part, {}));
+  open(folder / "ball.ply");
+  constexpr std::array kKeys{ui::Key::digit1, ui::Key::digit2, ui::Key::digit3, ui::Key::digit4,
+                             ui::Key::digit5, ui::Key::digit6, ui::Key::digit7};
+  constexpr std::array<const char*, 7> kViews{"front", "back", "left", "right", "top", "bottom", "iso"};
+  for (std::size_t k = 0; k < kKeys.size(); ++k) {
+    press(kKeys.at(k), {.control = true});
+    const render::Camera pressed = editor.camera();
+    editor.look(kViews.at(k));
+    EXPECT_EQ(pressed, editor.camera()) << kViews.at(k);
+  }
 }
 
 TEST_F(EditorViews, AFramedMeshIsClearOfTheControls) {
