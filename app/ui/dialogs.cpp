@@ -30,7 +30,7 @@ void draw_shortcut_group(const Ui& ui, std::string_view group) {
     if (shortcut.group != group || shortcut.text.empty()) continue;
     text_in(ui.fonts.text, color::kText, shortcut.listed.empty() ? shortcut.keys : shortcut.listed);
     ImGui::SameLine(ui.px(118));
-    text_in(ui.fonts.text, color::kTextDim, shortcut.text);
+    wrapped(ui.fonts.text, color::kTextDim, shortcut.text);
   }
   ImGui::Dummy({0, ui.px(4)});
 }
@@ -43,7 +43,7 @@ void draw_pointer_help(const Ui& ui) {
       {"Wheel", "Zoom to the pointer"},
       {"Tab, Shift+Tab", "To the next control and back"},
       {"Arrows, Space, Enter", "Use the control with the focus"},
-      {"Left, Right", "Choose among buttons side by side"},
+      {"Left, Right", "Choose in a row of buttons"},
       {"Escape", "Leave the controls, close a dialog"},
       {"Drop a file", "Open it"},
   };
@@ -51,7 +51,7 @@ void draw_pointer_help(const Ui& ui) {
   for (const auto& [keys, text] : kLines) {
     text_in(ui.fonts.text, color::kText, keys);
     ImGui::SameLine(ui.px(150));
-    text_in(ui.fonts.text, color::kTextDim, text);
+    wrapped(ui.fonts.text, color::kTextDim, text);
   }
 }
 

@@ -86,7 +86,8 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
   const float width = std::clamp(rect.width() - tools - left - ui.px(10), ui.px(200), ui.px(390));
   ImGui::SameLine(std::max(0.5F * (rect.width() - width), left), 0);
   draw_colorings(ui, width);
-  ImGui::SameLine(std::max(rect.width() - tools, ImGui::GetCursorPosX() + ui.px(10)), 0);
+  const float end = ImGui::GetItemRectMax().x - rect.low.x + ui.px(10);
+  ImGui::SameLine(std::max(rect.width() - tools, end), 0);
   tool(ui, {.name = "wire",
             .label = "Edges",
             .tip = "Show the edges of the triangles.",

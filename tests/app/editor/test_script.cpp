@@ -112,7 +112,7 @@ TEST_F(ScriptTest, ATypedRangeIsWrittenDownAndRead) {
 
 TEST_F(ScriptTest, AVertexOutOfSightIsFlownToAndInspected) {
   (void)write_mesh(folder / "ball.ply", generate(ShapeKind::sphere, {}));
-  const std::string look = "open ball.ply\nstep\ncamera front\n";
+  const std::string look = "open ball.ply\nstep\ncamera back\n";
   const auto pictures = play(look + "screenshot far.png\nvertex 0\nscreenshot why.png\n").pictures;
   const auto typed = play(look + "tab inspect\nvertex 0\nfly\nscreenshot typed.png\n", "b.script").pictures;
   EXPECT_FALSE(render::read_png(pictures[0]) == render::read_png(pictures[1]));
@@ -144,6 +144,7 @@ TEST_F(ScriptTest, ASizeThatIsTooSmallIsRefusedWithTheSmallest) {
         << size;
   EXPECT_EQ(complaint("open square.off\nsize 160x120\ntab inspect\nvertex 3\nscreenshot a.png\n"), "");
   EXPECT_THROW((void)take_screenshot({.file = {}, .size = {100, 48}}), UsageError);
+  context->make_current();
   // A window manager may make a window smaller than it is allowed to be.
   for (const render::PictureSize size : {render::PictureSize{1, 1}, {120, 60}, {640, 78}})
     editor.frame({.size = size, .scale = 1, .time = time += tick});
@@ -189,6 +190,9 @@ TEST(ScriptWords, QuotesAndCommentsAreUnderstood) {
 
 TEST(ScriptWords, CommandsReadBackAsTheyWere) {
   model::Session session;
+  session.document = model::make_document("square.off", {generate(ShapeKind::random_square, {}), {}, {}});
+  session.timeline.branches.resize(3);
+  for (model::Branch& branch : session.timeline.branches) branch.start = 7;
   for (const model::Command& command : std::vector<model::Command>{
            model::Seek{7, 2U}, model::Seek{3, {}},
            model::SetStage{model::Stage{model::StageKind::control, 3}}, model::SetStage{},

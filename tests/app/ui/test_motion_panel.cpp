@@ -81,7 +81,7 @@ TEST_F(MotionPanelTest, EveryControlIsReachedByTab) {
   set({"field", "expr:0;0;0", "preset", "paper"});
   click("motion-details");
   const auto& stops = interface.state().stops;
-  for (const char* name : {"task/Smooth",
+  for (const char* name : {"task/Move",
                            "task/Move",
                            "sphere/1500",
                            "field",
