@@ -51,6 +51,8 @@ void Editor::frame(const FrameOptions& options) {
   model::execute(session_, model::Collect{});
   log_.follow(session_);
   const ImVec2 display{static_cast<float>(options.size.width), static_cast<float>(options.size.height)};
+  interface_.state().has_mesh =
+      session_.current != nullptr;  // the timeline takes its room from the first frame on
   const ui::Layout layout = ui::make_layout(interface_.state(), display, scale_);
   viewport_ = {std::max(1, static_cast<int>(layout.viewport.width())),
                std::max(1, static_cast<int>(layout.viewport.height()))};
@@ -139,6 +141,13 @@ render::PictureSize Editor::pane() const {
   return {std::max(1, width / grid.columns), std::max(1, viewport_.height / grid.rows)};
 }
 
+// What is written into a picture stands clear of what the interface lays over it.
+void Editor::clear_overlays(render::Scene& scene) const {
+  if (saving_) return;
+  if (shows_names() || ui::tells_selection(interface_.state(), session_)) scene.caption_lift = ui::kNameStrip;
+  scene.legend_top = bar_height() / scale_;
+}
+
 void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {
   const bool lines_only =
       &picture == &before_ && interface_.state().comparison.mode == ui::CompareMode::ghost;
@@ -148,8 +157,10 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
   key.against = shown.against.get();
   key.view = view;
   key.lines_only = lines_only;
-  const bool covered = shows_names() || ui::tells_selection(interface_.state(), session_);
-  key.caption_lift = covered ? ui::kNameStrip : 0;
+  render::Scene room;
+  clear_overlays(room);
+  key.caption_lift = room.caption_lift;
+  key.legend_top = room.legend_top;
   if (&picture == &current_) {
     const auto& step = session_.inspection.step;
     key.step = step && !session_.is_running() ? step->record.get() : nullptr;
@@ -161,7 +172,7 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
   }
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
-  scene.caption_lift = key.caption_lift;
+  clear_overlays(scene);
   // One legend serves both.
   if (lines_only) scene.legend.reset();
   if (&picture == &current_) add_step(session_, shown.state->positions(), scene);
@@ -235,6 +246,7 @@ void Editor::draw_legend() {
   // The text is as large as in the pictures.
   view.points = scale_;
   render::Scene scene = legend_->scene.make(shown_now(), view);
+  clear_overlays(scene);
   scene.meshes.clear();
   scene.notes.clear();
   try {

@@ -71,7 +71,7 @@ class Editor {
     const model::MeshState* against = nullptr;
     view::View view;
     bool lines_only = false;
-    double caption_lift = 0;
+    double caption_lift = 0, legend_top = 0;
     // What is laid over it.
     const StepRecord* step = nullptr;
     std::optional<model::Stage> stage;
@@ -100,6 +100,8 @@ class Editor {
   void follow_motion();
   void follow_panes();
   [[nodiscard]] bool shows_names() const;
+  [[nodiscard]] float bar_height() const;
+  void clear_overlays(render::Scene& scene) const;
   [[nodiscard]] render::Camera framed(const render::Camera& camera);
   [[nodiscard]] view::View present_view() const;
   [[nodiscard]] bool shows_before() const;
@@ -141,12 +143,14 @@ class Editor {
   std::optional<Flight> flight_;
   render::Camera framed_;           ///< as it was when it last framed the mesh by itself or when asked to
   Eigen::AlignedBox3d framed_box_;  ///< of the moving surface in it
-  std::size_t framed_panes_ = 1;    ///< beside each other when it did
+  std::optional<render::PictureSize> framed_pane_;  ///< of several beside each other when it did
+  std::optional<render::Camera> framed_alone_;      ///< as it was before there were several
   model::DocumentPtr shown_document_;
   render::PictureSize viewport_;
   float scale_ = 1;
   double time_ = 0;
   bool acted_ = false;
+  bool saving_ = false;  ///< a picture, which nothing is laid over
   bool quit_ = false;
   Times times_;
 };

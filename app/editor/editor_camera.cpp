@@ -31,7 +31,8 @@ void Editor::follow_document() {
   base_.selected.reset();
   camera_ = framed_ = render::default_camera(session_.document->mesh().positions, pane(), fit_options());
   framed_box_.setEmpty();
-  framed_panes_ = panes();
+  framed_pane_ = panes() > 1 ? std::optional(pane()) : std::nullopt;
+  framed_alone_.reset();
   flight_.reset();
 }
 
@@ -60,11 +61,20 @@ void Editor::follow_motion() {
 render::FitOptions Editor::fit_options() {
   ViewScene scene;
   const double height = pane().height;
-  const float bar = ui::compare_bar_height(interface_.state(), static_cast<float>(viewport_.width), scale_);
+  const double top = bar_height() / height;
+  const double bottom = shows_names() ? ui::kNameStrip * scale_ / height : 0;
+  // In low panes the mesh is worth more than being clear of everything.
+  constexpr double kMostCovered = 0.4;
+  const double share = std::min(1.0, kMostCovered / std::max(top + bottom, 1e-9));
   return {.margin = 0.07,
           .right = render::legend_share(scene.make(shown_now(), present_view()), pane()),
-          .top = bar / height,
-          .bottom = shows_names() ? ui::kNameStrip * scale_ / height : 0};
+          .top = share * top,
+          .bottom = share * bottom};
+}
+
+// Pixels that the controls of the comparison cover at the top.
+float Editor::bar_height() const {
+  return ui::compare_bar_height(interface_.state(), static_cast<float>(viewport_.width), scale_);
 }
 
 // Names stand in pictures of which there are several.
@@ -72,11 +82,17 @@ bool Editor::shows_names() const {
   return panes() > 1 || shows_before();
 }
 
-// More or fewer pictures beside each other have less or more room. A camera that the user moved stays.
+// Pictures beside each other have less room than one, and what each has depends on the window. A camera that
+// the user moved stays; one that was not is what it was when a single picture is left.
 void Editor::follow_panes() {
-  if (!session_.current || panes() == framed_panes_) return;
-  framed_panes_ = panes();
-  if (!flight_ && camera_ == framed_) camera_ = framed_ = framed(camera_);
+  if (!session_.current) return;
+  const std::optional<render::PictureSize> room = panes() > 1 ? std::optional(pane()) : std::nullopt;
+  if (room == framed_pane_) return;
+  const bool was_alone = !framed_pane_;
+  framed_pane_ = room;
+  if (flight_ || !(camera_ == framed_)) return;
+  if (was_alone) framed_alone_ = framed_;
+  camera_ = framed_ = !room && framed_alone_ ? *framed_alone_ : framed(camera_);
 }
 
 void Editor::move_camera(double time) {

@@ -26,7 +26,9 @@ void Editor::save_script(const std::filesystem::path& path) {
 void Editor::save_picture(const std::filesystem::path& path) {
   if (!session_.current) return;
   try {
+    saving_ = !shows_names();
     draw_pictures();
+    saving_ = false;
     if (shows_others() || before_.drawn) {
       const ImVec2 size{static_cast<float>(viewport_.width), static_cast<float>(viewport_.height)};
       painter_.paint(

@@ -216,7 +216,10 @@ std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
   if (scene.legend) {
     LegendLayout layout(*scene.legend, size, scale);
     const int edge = static_cast<int>(std::lround((kEdge - kPad) * scale));
-    const int top = (size.height - layout.height()) / 2;
+    const int covered = static_cast<int>(std::lround(scene.legend_top * scale));
+    // Lower than the middle where it has to be, but not out of the picture.
+    const int top =
+        std::max((size.height - layout.height()) / 2, std::min(covered, size.height - layout.height()));
     overlays.push_back({layout.paint(scene, size, top), size.width - edge - layout.width(), top});
   }
   if (!scene.caption.empty()) overlays.push_back(make_caption(scene, size, scale));

@@ -21,6 +21,7 @@ struct OverlayKey {
   std::optional<Legend> legend;
   std::string caption;
   double caption_lift = 0;
+  double legend_top = 0;
   std::vector<std::string> notes;
   Background background;
   bool transparent = false;
@@ -250,8 +251,9 @@ void Renderer::Impl::draw_arrows(const Arrows& wanted, const Camera& camera, Pic
 }
 
 void Renderer::Impl::update_overlays(const Scene& scene, PictureSize size) {
-  const OverlayKey key{scene.legend,     scene.caption,     scene.caption_lift,     scene.notes,
-                       scene.background, scene.transparent, scene.pixels_per_point, size};
+  const OverlayKey key{scene.legend, scene.caption,    scene.caption_lift, scene.legend_top,
+                       scene.notes,  scene.background, scene.transparent,  scene.pixels_per_point,
+                       size};
   if (key == overlay_key) return;
   overlays.clear();
   for (const Overlay& overlay : make_overlays(scene, size)) {

@@ -101,6 +101,7 @@ struct Scene {
   bool transparent = false;
   std::optional<Legend> legend;
   std::string caption;             ///< one line at the lower left, UTF-8; empty: none
+  double legend_top = 0;           ///< points at the top that the legend leaves to a host
   double caption_lift = 0;         ///< points that it stands higher, over what a host lays there
   std::vector<std::string> notes;  ///< lines at the upper left, UTF-8; a tab begins the second column
   /// Pixels per point, the unit of line widths and text; 0: the picture's shorter side / 720.

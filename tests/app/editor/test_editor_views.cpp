@@ -234,7 +234,7 @@ TEST_F(EditorViews, AnotherNumberOfPanesIsFramedAgainUnlessTheCameraWasMoved) {
   const render::Camera whole = editor.camera();
   compare(ui::CompareMode::side_by_side);
   EXPECT_NE(editor.camera(), whole) << "half the room";
-  compare(ui::CompareMode::off);
+  compare(ui::CompareMode::ghost);
   EXPECT_EQ(editor.camera(), whole);
   compare(ui::CompareMode::split);
   EXPECT_EQ(editor.camera(), whole) << "the same room";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/overlay.h"
 #include "view/panels.h"
 
 namespace isorelax::view {
@@ -31,6 +32,21 @@ TEST(Panels, every_count_and_size_fits) {
       EXPECT_LE(panels.rows * panels.cell.height, 300);
       EXPECT_GE(panels.cell.width, 1);
     }
+}
+
+TEST(Overlay, the_legend_leaves_the_top_to_what_a_host_lays_there) {
+  render::Scene scene;
+  scene.legend.emplace().coloring.range = {0, 60};
+  scene.pixels_per_point = 1;
+  const render::PictureSize size{300, 300};
+  const int middle = render::make_overlays(scene, size).front().top;
+  scene.legend_top = middle - 1;
+  EXPECT_EQ(render::make_overlays(scene, size).front().top, middle);
+  scene.legend_top = middle + 10;
+  EXPECT_EQ(render::make_overlays(scene, size).front().top, middle + 10);
+  scene.legend_top = 1000;
+  const render::Overlay lowest = render::make_overlays(scene, size).front();
+  EXPECT_LE(lowest.top + lowest.bitmap.height, size.height);
 }
 
 TEST(Overlay, text_covers_what_is_behind_it_and_only_that) {
