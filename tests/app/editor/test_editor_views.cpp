@@ -209,6 +209,26 @@ TEST_F(EditorViews, BeforeAndAfterAreComparedOnOneCamera) {
   EXPECT_TRUE(same(part("viewport"), current, 0, current.width));
 }
 
+TEST_F(EditorViews, ASavedPictureShowsRunsBesideEachOther) {
+  open(folder.make_square());
+  editor.session().smoothing.iterations = 3;
+  model::execute(editor.session(), model::Teach{});
+  model::finish(editor.session());
+  settle();
+  ASSERT_EQ(editor.session().other_states.size(), 2U);
+  editor.ask(ui::SavePicture{folder / "beside.png"});
+  const Image saved = render::read_png(folder / "beside.png");
+  settle();
+  const Image shown = part("viewport");
+  ASSERT_EQ(saved.width, shown.width);
+  ASSERT_EQ(saved.height, shown.height);
+  // The edges of names may be rounded otherwise at another place.
+  for (int y = 120; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x)
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_NEAR(saved.at(x, y)[k], shown.at(x, y)[k], 3) << x << ", " << y;
+}
+
 TEST_F(EditorViews, ASavedPictureShowsTheComparisonAsTheViewportDoes) {
   open(folder.make_square());
   run(5);

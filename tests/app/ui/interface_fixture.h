@@ -22,7 +22,7 @@ inline FontFiles test_fonts() {
 class InterfaceTest : public ::testing::Test {
  protected:
   void frame() {
-    const Output output = interface.frame(session, {.display = {1280, 720}});
+    const Output output = interface.frame(session, {.display = display});
     for (const model::Command& command : output.commands) model::execute(session, command);
     requests.insert(requests.end(), output.requests.begin(), output.requests.end());
     model::execute(session, model::Collect{});
@@ -73,6 +73,7 @@ class InterfaceTest : public ::testing::Test {
   model::Session session;
   Interface interface { test_fonts() };
   std::vector<Request> requests;
+  ImVec2 display{1280, 720};
 };
 
 }  // namespace isorelax::ui

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "app/ui/interface_fixture.h"
+#include "ui/widgets.h"
 
 namespace isorelax::ui {
 namespace {
@@ -317,6 +318,47 @@ TEST_F(InterfaceTest, TheTimelineDoesNotJoinEnergiesOfDifferentKinds) {
   session.history.back().series = session.history.front().series + 1;
   frame();
   EXPECT_LT(interface.draw_data().TotalVtxCount, joined);
+}
+
+TEST_F(InterfaceTest, ASmallWindowHasMenusForWhatDoesNotFit) {
+  display = {1024, 640};
+  open();
+  click("step");
+  EXPECT_FALSE(shows("stage/Tangent"));
+  click("stage");
+  click("stage/Tangent");
+  EXPECT_EQ(session.timeline.cursor.stage, model::Stage{model::StageKind::tangent});
+  click("compare");
+  click("compare/Split");
+  EXPECT_EQ(interface.state().comparison.mode, CompareMode::split);
+  EXPECT_TRUE(shows("compare-with"));
+}
+
+TEST_F(InterfaceTest, NothingOverlapsInTheSmallestWindow) {
+  display = {960, 540};
+  open();
+  click("step");
+  const auto& rects = interface.state().rects;
+  EXPECT_LT(rects.at("redo").high.x, rects.at("coloring/Min angle").low.x);
+  EXPECT_LT(rects.at("coloring/Plain").high.x, rects.at("wire").low.x);
+  EXPECT_LT(rects.at("help").high.x, display.x);
+  EXPECT_LT(rects.at("to-end").high.x, rects.at("stage").low.x);
+  EXPECT_LE(rects.at("stage").high.x, rects.at("timeline").high.x);
+  EXPECT_LE(rects.at("compare-bar").high.x, rects.at("viewport").high.x);
+  EXPECT_LE(rects.at("document").high.x, rects.at("news").low.x);
+  press(Key::f1);
+  EXPECT_LE(rects.at("help-page").high.y, display.y) << "it scrolls";
+}
+
+TEST_F(InterfaceTest, TextThatDoesNotFitEndsInAnEllipsis) {
+  settle();
+  const ImFont& font = *ImGui::GetFont();
+  EXPECT_EQ(fitted(font, "Near-isometry", 500), "Near-isometry");
+  const std::string cut = fitted(font, "Near-isometry", 60);
+  EXPECT_TRUE(cut.ends_with("\xE2\x80\xA6")) << cut;
+  EXPECT_LE(text_width(font, cut), 60);
+  EXPECT_EQ(fitted(font, "", 60), "");
+  EXPECT_EQ(fitted(font, "Near-isometry", 1), "");
 }
 
 TEST_F(InterfaceTest, HiddenPanelsLeaveTheWholeWindowToTheMesh) {
