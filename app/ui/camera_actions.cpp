@@ -1,76 +1,39 @@
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "ui/panels.h"
 
 namespace isorelax::ui {
-namespace {
-
-constexpr float kZoom = 1.25F;
-
-}  // namespace
 
 void perform_camera_action(const Ui& ui, Action action) {
+  constexpr float kZoom = 1.25F;
   const auto found = ui.state.rects.find("viewport");
   if (found == ui.state.rects.end()) return;
   const Rect& viewport = found->second;
   // A twelfth of the viewport's shorter side, as a drag.
   const float step = std::min(viewport.width(), viewport.height()) / 12;
-  const ImVec2 middle{0.5F * viewport.width(), 0.5F * viewport.height()};
-  switch (action) {
-    case Action::turn_left:
-      ui.request(OrbitView{-step, 0});
-      break;
-    case Action::turn_right:
-      ui.request(OrbitView{step, 0});
-      break;
-    case Action::turn_up:
-      ui.request(OrbitView{0, -step});
-      break;
-    case Action::turn_down:
-      ui.request(OrbitView{0, step});
-      break;
-    case Action::pan_left:
-      ui.request(PanView{-step, 0});
-      break;
-    case Action::pan_right:
-      ui.request(PanView{step, 0});
-      break;
-    case Action::pan_up:
-      ui.request(PanView{0, -step});
-      break;
-    case Action::pan_down:
-      ui.request(PanView{0, step});
-      break;
-    case Action::zoom_in:
-      ui.request(ZoomView{kZoom, middle.x, middle.y});
-      break;
-    case Action::zoom_out:
-      ui.request(ZoomView{1 / kZoom, middle.x, middle.y});
-      break;
-    case Action::view_front:
-      ui.request(LookFrom{"front"});
-      break;
-    case Action::view_back:
-      ui.request(LookFrom{"back"});
-      break;
-    case Action::view_left:
-      ui.request(LookFrom{"left"});
-      break;
-    case Action::view_right:
-      ui.request(LookFrom{"right"});
-      break;
-    case Action::view_top:
-      ui.request(LookFrom{"top"});
-      break;
-    case Action::view_bottom:
-      ui.request(LookFrom{"bottom"});
-      break;
-    case Action::view_iso:
-      ui.request(LookFrom{"iso"});
-      break;
-    default:
-      break;
-  }
+  const float x = 0.5F * viewport.width();
+  const float y = 0.5F * viewport.height();
+  const std::array<std::pair<Action, Request>, 17> moves{{{Action::turn_left, OrbitView{-step, 0}},
+                                                          {Action::turn_right, OrbitView{step, 0}},
+                                                          {Action::turn_up, OrbitView{0, -step}},
+                                                          {Action::turn_down, OrbitView{0, step}},
+                                                          {Action::pan_left, PanView{-step, 0}},
+                                                          {Action::pan_right, PanView{step, 0}},
+                                                          {Action::pan_up, PanView{0, -step}},
+                                                          {Action::pan_down, PanView{0, step}},
+                                                          {Action::zoom_in, ZoomView{kZoom, x, y}},
+                                                          {Action::zoom_out, ZoomView{1 / kZoom, x, y}},
+                                                          {Action::view_front, LookFrom{"front"}},
+                                                          {Action::view_back, LookFrom{"back"}},
+                                                          {Action::view_left, LookFrom{"left"}},
+                                                          {Action::view_right, LookFrom{"right"}},
+                                                          {Action::view_top, LookFrom{"top"}},
+                                                          {Action::view_bottom, LookFrom{"bottom"}},
+                                                          {Action::view_iso, LookFrom{"iso"}}}};
+  const auto* move = std::ranges::find(moves, action, &std::pair<Action, Request>::first);
+  if (move != moves.end()) ui.request(move->second);
 }
 
 }  // namespace isorelax::ui

@@ -39,6 +39,27 @@ void draw_colorings(const Ui& ui, float width) {
   ui.command(model::SetView{view});
 }
 
+void draw_view_tools(const Ui& ui) {
+  tool(ui, {.name = "wire",
+            .label = "Edges",
+            .tip = "Show the edges of the triangles.",
+            .icon = Icon::wire,
+            .action = Action::wire,
+            .on = ui.session.view.wire});
+  tool(ui, {.name = "shading",
+            .label = "Smooth",
+            .tip = "Shade the surface smoothly instead of each triangle flat.",
+            .action = Action::shading,
+            .on = ui.session.view.shading == model::Shading::smooth});
+  tool(ui, {.name = "frame",
+            .label = "Frame",
+            .tip = "Show the whole mesh.",
+            .icon = Icon::frame,
+            .action = Action::frame,
+            .enabled = ui.session.current != nullptr});
+  tool(ui, {.name = "help", .tip = "All keys.", .icon = Icon::help, .action = Action::help});
+}
+
 }  // namespace
 
 void draw_top_bar(const Ui& ui, const Rect& rect) {
@@ -88,24 +109,7 @@ void draw_top_bar(const Ui& ui, const Rect& rect) {
   draw_colorings(ui, width);
   const float end = ImGui::GetItemRectMax().x - rect.low.x + ui.px(10);
   ImGui::SameLine(std::max(rect.width() - tools, end), 0);
-  tool(ui, {.name = "wire",
-            .label = "Edges",
-            .tip = "Show the edges of the triangles.",
-            .icon = Icon::wire,
-            .action = Action::wire,
-            .on = s.view.wire});
-  tool(ui, {.name = "shading",
-            .label = "Smooth",
-            .tip = "Shade the surface smoothly instead of each triangle flat.",
-            .action = Action::shading,
-            .on = s.view.shading == model::Shading::smooth});
-  tool(ui, {.name = "frame",
-            .label = "Frame",
-            .tip = "Show the whole mesh.",
-            .icon = Icon::frame,
-            .action = Action::frame,
-            .enabled = open});
-  tool(ui, {.name = "help", .tip = "All keys.", .icon = Icon::help, .action = Action::help});
+  draw_view_tools(ui);
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
