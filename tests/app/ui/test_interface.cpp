@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <future>
+#include <thread>
 
 #include "app/ui/interface_fixture.h"
 #include "ui/widgets.h"
@@ -295,16 +297,21 @@ TEST_F(InterfaceTest, TheKeyOfThreeRunsStandsClearOfTheTitle) {
 }
 
 TEST_F(InterfaceTest, WhileBusyTheLineOfNewsStandsWithItsNeighbours) {
-  open(20000);
+  open();
   model::execute(session, model::Say{{model::MessageKind::info, "News"}});
-  model::execute(session, model::Run{});
+  std::promise<void> seen;
+  session.engine.post("test", [done = seen.get_future().share()](auto& context) {
+    context.progress("Waiting", -1);
+    done.wait();
+  });
+  while (!session.engine.progress().busy) std::this_thread::yield();
   frame();
-  ASSERT_TRUE(session.engine.progress().busy);
   frame();
+  EXPECT_TRUE(shows("cancel"));
   ASSERT_TRUE(shows("news"));
   EXPECT_NEAR(interface.state().rects.at("news").center().y,
               interface.state().rects.at("document").center().y, 1);
-  model::execute(session, model::Cancel{});
+  seen.set_value();
   model::finish(session);
 }
 
