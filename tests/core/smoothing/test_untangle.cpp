@@ -151,10 +151,9 @@ TEST(Untangle, SliversThatItLeavesDoNotHoldTheirVertices) {
       const Vec3 throw_by(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       if (random.uniform() < 0.2) p = (p + 1.5 * edge * throw_by.normalized()).normalized();
     }
-    run_bounded(
-        mesh.positions, mesh.triangles, {},
-        [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
-        {.iterations = 200}, {});
+    run_bounded(mesh.positions, mesh.triangles, {},
+                [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
+                {.iterations = 200}, {});
     EXPECT_EQ(facing_inward(mesh), 0U) << seed;
     EXPECT_GT(measure_quality(mesh).min_angle_deg, 15) << seed;
   }
