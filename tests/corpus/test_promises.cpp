@@ -33,7 +33,7 @@ double diagonal(const TriangleMesh& mesh) {
 
 /// Largest distance of points all over the triangles of `from` to those of `to`.
 double sampled_distance(const TriangleMesh& from, const TriangleMesh& to) {
-  constexpr int kParts = 12;
+  constexpr int kParts = 8;
   const ClosestPointIndex index(to.positions, to.triangles);
   double largest = 0;
   for (const auto& [a, b, c] : from.triangles) {
