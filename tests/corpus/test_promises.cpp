@@ -36,13 +36,14 @@ double sampled_distance(const TriangleMesh& from, const TriangleMesh& to) {
   constexpr int kParts = 8;
   const ClosestPointIndex index(to.positions, to.triangles);
   double largest = 0;
-  for (const auto& [a, b, c] : from.triangles) {
+  for (Index t = 0; t < from.triangles.size(); ++t) {
+    const auto& [a, b, c] = from.triangles[t];
     for (int i = 0; i <= kParts; ++i) {
       for (int j = 0; i + j <= kParts; ++j) {
         const Vec3 point = from.positions[a] +
                            static_cast<double>(i) / kParts * (from.positions[b] - from.positions[a]) +
                            static_cast<double>(j) / kParts * (from.positions[c] - from.positions[a]);
-        largest = std::max(largest, index.closest(point).distance);
+        largest = std::max(largest, index.closest(point, t).distance);
       }
     }
   }
