@@ -74,6 +74,7 @@ class Executor {
 
  private:
   void say(MessageKind kind, std::string text);
+  void keep_result(const std::optional<RunResult>& result);
   void start_run(unsigned iterations, PartKind kind);
   [[nodiscard]] PartKind kind_here() const;
   void start_polish();

@@ -169,18 +169,14 @@ bool Executor::run_over_recorded(unsigned iterations) {
       s_.after_scan_ = go_on;
     else
       s_.after_scan_ = [result = ended ? branch.result : std::nullopt, kind = branch.kind](Session& s) {
-        s.last_run = result;
-        s.last_run_number = s.message_count_;
+        Executor(s).keep_result(result);
         Executor(s).polish_when_idle(kind);
       };
     s_.scan_to_ = to;
     return true;
   }
   seek(at, to);
-  if (ended) {
-    s_.last_run = branch.result;
-    s_.last_run_number = s_.message_count_;
-  }
+  if (ended) keep_result(branch.result);
   if (goes_on)
     s_.when_idle_.push_back(go_on);
   else
@@ -251,13 +247,17 @@ void Executor::drop_empty_branch() {
   timeline.branches.pop_back();
 }
 
+void Executor::keep_result(const std::optional<RunResult>& result) {
+  s_.last_run = result;
+  s_.last_run_number = s_.message_count_;
+}
+
 void Executor::operator()(RunEnded& event) {
   const bool cancelled = event.result.stopped == StopReason::cancelled;
   s_.remaining = cancelled && event.result.iterations < s_.run_iterations_
                      ? s_.run_iterations_ - event.result.iterations
                      : 0;
-  s_.last_run = event.result;
-  s_.last_run_number = s_.message_count_;
+  keep_result(event.result);
   s_.broken_by = event.broken_by;
   if (event.held) s_.last_step = event.held;
   if (!s_.timeline.empty()) {

@@ -39,6 +39,9 @@ class MixedScanner {
   }
   std::string_view raw_bytes(std::size_t size, const char* what);
 
+  /// Passes over what is not read. Precondition: `position` is not before the present one.
+  void skip_to(std::size_t position) { last_ = position_ = position; }
+
   /// Throws unless so many elements, of at least so many bytes each, can follow.
   void promise(std::uint64_t elements, std::size_t least_bytes, const char* what) const;
 

@@ -19,11 +19,9 @@ inline constexpr int kMshLine = 1;
 inline constexpr int kMshTriangle = 2;
 inline constexpr int kMshPoint = 15;
 
-/// Names of what elements carry: their first group, the geometric entity they lie on, the number of a node.
-inline constexpr const char* kMshPhysical = "gmsh:physical";
-inline constexpr const char* kMshEntity = "gmsh:geometrical";
+/// Name of a node's number, where nodes are not numbered 1, 2, 3, ...
 inline constexpr const char* kMshNode = "gmsh:node";
-/// Their values where nothing is known.
+/// The physical group and the geometric entity of an element where nothing is known.
 inline constexpr double kMshNoGroup = 0;
 inline constexpr double kMshOnlyEntity = 1;
 /// How a name of a group stands among the header lines: behind this word, as in the file.

@@ -129,7 +129,7 @@ void MshReader::pass_over(std::string_view section) {
   const std::string wanted = "$End" + std::string(section.substr(1));
   const std::size_t end = bytes_.find(wanted, in_.position());
   if (end == std::string_view::npos) in_.fail("the file ends within " + in_quotes(section));
-  in_.raw_bytes(end + wanted.size() - in_.position(), "a section");
+  in_.skip_to(end + wanted.size());
   raw_.messages.push_back("section " + in_quotes(section) + " left out");
 }
 
@@ -363,8 +363,8 @@ void MshReader::finish() {
     const ScalarType type = fitting_type(values, ScalarType::int32);
     cells_.add_values({name, type, 1, std::move(values)});
   };
-  add(kMshPhysical, physical_, kMshNoGroup);
-  add(kMshEntity, entity_, kMshOnlyEntity);
+  add(kPhysicalGroup, physical_, kMshNoGroup);
+  add(kGeometricEntity, entity_, kMshOnlyEntity);
   cells_.finish(raw_);
   if (!in_sequence_) {
     const ScalarType type = fitting_type(nodes_, ScalarType::uint32);

@@ -3,7 +3,6 @@
 
 #include "io/attribute_access.h"
 #include "io/byte_order.h"
-#include "io/cells.h"
 #include "io/mesh_file.h"
 #include "io/msh_layout.h"
 #include "io/text_out.h"
@@ -22,8 +21,8 @@ class MshWriter {
       : mesh_(mesh), binary_(encoding == FileEncoding::binary_little_endian) {
     const MeshAttributes& attributes = mesh.attributes;
     written_ = {&attributes.points, &attributes.lines};
-    physical_ = take_numbers(kMshPhysical, kMshNoGroup);
-    entity_ = take_numbers(kMshEntity, kMshOnlyEntity);
+    physical_ = take_numbers(kPhysicalGroup, kMshNoGroup);
+    entity_ = take_numbers(kGeometricEntity, kMshOnlyEntity);
   }
 
   EncodedMesh write() {
@@ -32,9 +31,7 @@ class MshWriter {
     write_names();
     write_nodes();
     write_elements();
-    std::vector<std::string> lost = report_not_written(mesh_.attributes, written_, FileFormat::msh);
-    messages_.insert(messages_.end(), lost.begin(), lost.end());
-    return {std::move(out_), std::move(messages_)};
+    return {std::move(out_), report_not_written(mesh_.attributes, written_, FileFormat::msh)};
   }
 
  private:
@@ -60,27 +57,32 @@ class MshWriter {
   const TriangleMesh& mesh_;
   bool binary_;
   WrittenParts written_;
-  std::vector<std::string> messages_;
   std::vector<double> physical_, entity_;  // of the points, the lines, the triangles
   std::vector<double> nodes_;              // numbers; empty: 1, 2, 3, ...
   std::size_t element_ = 0;
   std::string out_;
 };
 
-/// Whole numbers of all elements, or the same one for all where there are none.
+/// Of the points, the lines, the triangles; the same one for all of those that have none.
 std::vector<double> MshWriter::take_numbers(const char* name, double otherwise) {
   const MeshAttributes& attributes = mesh_.attributes;
-  std::vector<std::string> unsaid;
-  for (Attribute& values : cell_values(mesh_, unsaid)) {
-    if (values.name != name || values.width != 1 ||
-        fitting_type(values.values, ScalarType::int32) != ScalarType::int32)
-      continue;
-    for (const auto* group : {&attributes.points.values, &attributes.lines.values, &attributes.face})
-      static_cast<void>(take_attribute(*group, name, 1, 1, written_));
-    return std::move(values.values);
-  }
-  const std::size_t count = attributes.points.count() + attributes.lines.count() + mesh_.triangles.size();
-  return std::vector<double>(count, otherwise);
+  std::vector<double> numbers;
+  const auto take = [&](const std::vector<Attribute>& values, std::size_t count) {
+    const auto found = std::ranges::find_if(values, [&](const Attribute& attribute) {
+      return attribute.name == name && attribute.width == 1 &&
+             fitting_type(attribute.values, ScalarType::int32) == ScalarType::int32;
+    });
+    if (found == values.end()) {
+      numbers.insert(numbers.end(), count, otherwise);
+    } else {
+      numbers.insert(numbers.end(), found->values.begin(), found->values.end());
+      written_.insert(&*found);
+    }
+  };
+  take(attributes.points.values, attributes.points.count());
+  take(attributes.lines.values, attributes.lines.count());
+  take(attributes.face, mesh_.triangles.size());
+  return numbers;
 }
 
 void MshWriter::take_node_numbers() {

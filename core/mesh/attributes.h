@@ -6,6 +6,11 @@
 
 namespace isorelax {
 
+/// Names of the groups of elements, as MSH files have them: the first one that a user gave it, and the
+/// geometric entity that it lies on.
+inline constexpr const char* kPhysicalGroup = "gmsh:physical";
+inline constexpr const char* kGeometricEntity = "gmsh:geometrical";
+
 /// Scalar type an attribute had in its file, so that it is written back as it was.
 enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 

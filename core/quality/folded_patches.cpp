@@ -1,32 +1,14 @@
 #include "quality/folded_patches.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "mesh/disjoint_sets.h"
 #include "quality/triangle_metrics.h"
 
 namespace isorelax {
 namespace {
 
 constexpr std::size_t kLargestShare = 10;
-
-/// Disjoint sets; the representative of each is its smallest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 struct Fold {
   Index from, to;
@@ -104,7 +86,8 @@ class Patches {
 
   bool is_small(Index patch) { return kLargestShare * patch_size_[patch] <= part_size_[parts_.find(patch)]; }
 
-  /// Sets these patches right side up where they have no side yet, and from there all that folds lead to.
+  /// DisjointSets these patches right side up where they have no side yet, and from there all that folds lead
+  /// to.
   void spread(const std::vector<Index>& starts, std::vector<std::uint8_t>& side) const {
     std::vector<Index> waiting;
     for (const Index patch : starts) {
@@ -127,7 +110,7 @@ class Patches {
   std::span<const Triangle> triangles_;
   const Topology& topology_;
   std::vector<Vec3> normals_;
-  Sets parts_, patches_;
+  DisjointSets parts_, patches_;
   std::vector<Fold> folds_;
   std::vector<std::size_t> patch_size_, part_size_;
 };

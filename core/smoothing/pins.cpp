@@ -18,7 +18,7 @@ class Groups {
  public:
   explicit Groups(const std::vector<Attribute>& values) {
     for (const Attribute& attribute : values)
-      if (attribute.width == 1 && (attribute.name == "gmsh:physical" || attribute.name == "gmsh:geometrical"))
+      if (attribute.width == 1 && (attribute.name == kPhysicalGroup || attribute.name == kGeometricEntity))
         groups_.push_back(&attribute);
   }
   [[nodiscard]] bool empty() const { return groups_.empty(); }

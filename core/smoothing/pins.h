@@ -20,7 +20,7 @@ namespace isorelax {
                                                   const Topology& topology, const FeatureOptions& options,
                                                   unsigned threads = 0);
 
-/// What a file marks by the groups of its elements (attributes "gmsh:physical" and "gmsh:geometrical"): its
+/// What a file marks by the groups of its elements (attributes kPhysicalGroup and kGeometricEntity): its
 /// points, vertices on its lines inside the surface, those on the border where lines of two groups meet, and
 /// those between triangles of two groups. Moved, they would change what the groups cover. None where elements
 /// have no groups.

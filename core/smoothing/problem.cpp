@@ -4,20 +4,16 @@
 #include <cmath>
 
 #include "mesh/error.h"
+#include "smoothing/initial_normals.h"
 #include "smoothing/renumbered_problem.h"
 #include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
-#include "smoothing/turn_limit.h"
 
 namespace isorelax {
 namespace {
 
 /// A triangle with a doubled area below this share of its longest edge squared has no usable normal.
 constexpr double kDegenerate = 1e-12;
-/// One with less than this is a sliver, of some six degrees; normals agree whose sum is longer than the other
-/// share of what it would be if all were the same.
-constexpr double kSliver = 0.1;
-constexpr double kSmooth = 0.9;
 /// A mesh within this share of its extent of a plane is planar.
 constexpr double kPlanar = 1e-12;
 
@@ -198,40 +194,6 @@ class ProblemBuilder {
     }
   }
 
-  /// A sliver's own normal points anywhere: where the triangles about its corners agree on one, it gets
-  /// theirs.
-  void find_initial_normals() {
-    std::vector<Vec3> sums(p_.vertex_count(), Vec3::Zero());
-    std::vector<double> weights(p_.vertex_count(), 0);
-    for (Index t = 0; t < p_.triangle_count(); ++t) {
-      const Vec3 area = area_of(t);
-      if (is_sliver(t, area)) continue;
-      for (const Index v : p_.triangles[t]) {
-        sums[v] += area;
-        weights[v] += area.norm();
-      }
-    }
-    p_.initial_normals.resize(p_.triangle_count());
-    for (Index t = 0; t < p_.triangle_count(); ++t) {
-      const Vec3 area = area_of(t);
-      p_.initial_normals[t] = area.stableNormalized();
-      const auto& [a, b, c] = p_.triangles[t];
-      const bool in_a_face = is_smooth(a) && is_smooth(b) && is_smooth(c);
-      if (!in_a_face || !is_sliver(t, area)) continue;
-      const Vec3 sum = sums[a] + sums[b] + sums[c];
-      const bool agree = sum.norm() > kSmooth * (weights[a] + weights[b] + weights[c]);
-      const double along = sum.normalized().dot(p_.initial_normals[t]);
-      if (agree && along > 0 && along < TurnLimit::kLeastCosine) p_.initial_normals[t] = sum.normalized();
-    }
-  }
-  [[nodiscard]] bool is_smooth(Index v) const { return p_.classes.classes[v] == VertexClass::smooth; }
-  [[nodiscard]] bool is_sliver(Index t, const Vec3& area) const {
-    const Triangle& v = p_.triangles[t];
-    double longest2 = 0;
-    for (unsigned k = 0; k < 3; ++k) longest2 = std::max(longest2, (x_[v[next(k)]] - x_[v[k]]).squaredNorm());
-    return area.norm() < kSliver * longest2;
-  }
-
   void note_if_nothing_may_move() {
     if (std::ranges::any_of(p_.mobility, [](Mobility m) { return m != Mobility::none; })) return;
     const auto held = [&](std::uint16_t limit) {
@@ -249,7 +211,7 @@ class ProblemBuilder {
   }
 
   void freeze_surface() {
-    if (!p_.plane_normal) find_initial_normals();
+    if (!p_.plane_normal) p_.initial_normals = initial_normals(x_, p_.triangles, p_.classes);
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;

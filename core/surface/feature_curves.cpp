@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kSamplesAhead = 3;
 constexpr std::size_t kSamplesAheadOfAnEnd = 5;
 /// Radians; what turns by less than this in a vertex is straight there.
-constexpr double kStraight = 3.5e-4;
+constexpr double kStraight = 5e-5;
 /// The lift of an arc over its chord is a quarter of the turn at its ends times half the chord; noise may not
 /// make more of it than this.
 constexpr double kLargestCurveLift = 0.4;

@@ -191,13 +191,18 @@ class Measurement {
       const double x = result_.by_triangle[a].distance, y = result_.by_triangle[b].distance;
       return x != y ? x > y : a < b;
     });
-    for (std::size_t i = 0; i < count; ++i) search(order[i], 0);
+    searched_.assign(triangles_.size(), 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      search(order[i], 0);
+      searched_[order[i]] = 1;
+    }
   }
 
   /// All others that may hold a point that is farther than any.
   void search_others() {
     parallel_for_blocks(triangles_.size(), threads_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) search(static_cast<Index>(t), result_.farthest.distance);
+      for (std::size_t t = begin; t < end; ++t)
+        if (searched_[t] == 0) search(static_cast<Index>(t), result_.farthest.distance);
     });
   }
 
@@ -254,6 +259,7 @@ class Measurement {
   std::span<const Triangle> triangles_;
   unsigned threads_;
   std::vector<FarPoint> vertex_, edge_;
+  std::vector<std::uint8_t> searched_;  // triangles, all over
   OneWayDistance result_;
 };
 

@@ -44,8 +44,7 @@ struct OneWayDistance {
 /// divided until no part of theirs can be farther by more than a thousandth. The 64 triangles with the
 /// largest distances are then searched all over, halved until the same is true of them; all others are for
 /// what is farther still. How often both are divided is bounded: where surfaces are far from lying over each
-/// other, less may be found. Never above the
-/// true distance. The same for any number of threads.
+/// other, less may be found. Never above the true distance. The same for any number of threads.
 [[nodiscard]] std::array<OneWayDistance, 2> measure_both_ways(const IndexedSurface& a,
                                                               const IndexedSurface& b, unsigned threads);
 

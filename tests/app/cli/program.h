@@ -1,8 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -61,6 +63,15 @@ inline Outcome run_program(const std::string& arguments) {
   const std::string command = quoted_program() + arguments;
   const int code = std::system(("{ " + command + " ; } >'" + out + "' 2>'" + err + "'").c_str());
   return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, contents(out), contents(err)};
+}
+
+inline constexpr const char* kTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// Exactly one line, of the agreed form.
+inline void expect_one_error_line(const Outcome& outcome) {
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(outcome.err.rfind("isorelax: error: ", 0), 0U) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
 }
 
 }  // namespace isorelax::test
