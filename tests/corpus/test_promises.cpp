@@ -33,7 +33,7 @@ double diagonal(const TriangleMesh& mesh) {
 
 /// Largest distance of points all over the triangles of `from` to those of `to`.
 double sampled_distance(const TriangleMesh& from, const TriangleMesh& to) {
-  constexpr int kParts = 8;
+  constexpr int kParts = 12;
   const ClosestPointIndex index(to.positions, to.triangles);
   double largest = 0;
   for (Index t = 0; t < from.triangles.size(); ++t) {
@@ -54,10 +54,11 @@ TEST(Promises, NoPointOfTheSurfaceGoesFartherThanTheLimitNorThanIsSaid) {
   // More than a hundred vertices end at the limit here, and a point inside a triangle goes farther than they.
   const TriangleMesh before = read("bones");
   TriangleMesh after = before;
-  const BoundedResult result = smooth(after, {.max = 1e-3, .automatic = {}});
+  constexpr double kLimit = 5e-3;
+  const BoundedResult result = smooth(after, {.max = kLimit, .automatic = {}});
   const double far =
       std::max(sampled_distance(before, after), sampled_distance(after, before)) / diagonal(before);
-  EXPECT_LE(far, 1e-3);
+  EXPECT_LE(far, kLimit);
   EXPECT_GE(result.deviation.max, (1 - 2e-3) * far);
 }
 
