@@ -24,7 +24,7 @@ case "${1:-}" in
 esac
 
 # Tests that hold a stopwatch: a sanitizer makes them say how slow it is.
-untimed='Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:Files.TimeFollows*:MillionTriangles.*'
+untimed='Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:*DoesNotTakeLong:Files.TimeFollows*:MillionTriangles.*'
 # Long runs that are about figures: other tests make the same kinds of steps, on smaller meshes.
 figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:LimitChoice.ABump*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*:Polish.GoesAlong*:OneByOne.IsWhat*:BoundedRun.EndsNot*'
 # What computes on several threads, and the session with its worker.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// What can be farther than the largest distance by less than this share of it is not looked into.
 constexpr double kTolerance = 1e-3;
+/// Nor what is farther by less than this share of the largest coordinate: closest points are no more exact.
+constexpr double kResolution = 16 * std::numeric_limits<double>::epsilon();
 /// An edge is divided that often at most, one part in another, and not too near to an end.
 constexpr unsigned kDivisions = 12;
 constexpr double kLeastPart = 0.05;
@@ -26,7 +29,12 @@ constexpr unsigned kSamples = 2000;
 class Measurement {
  public:
   Measurement(const IndexedSurface& from, const IndexedSurface& to, unsigned threads)
-      : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {}
+      : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {
+    double largest = 0;
+    for (const std::span<const Vec3> positions : {from.positions, to.positions})
+      for (const Vec3& x : positions) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+    resolution_ = kResolution * largest;
+  }
 
   void sample_vertices() {
     vertex_.assign(x_.size(), {});
@@ -159,7 +167,9 @@ class Measurement {
     if (from.nearest == triangle) return from.distance;
     return to_.index.closest_of(triangle, from.point).distance;
   }
-  [[nodiscard]] static double more_than(double largest) { return (1 + kTolerance) * largest; }
+  [[nodiscard]] double more_than(double largest) const {
+    return std::max((1 + kTolerance) * largest, largest + resolution_);
+  }
 
   void divide_edges() {
     for_edges([&](Corner c, Index a, Index b) {
@@ -210,13 +220,12 @@ class Measurement {
   void search(Index t, double known) {
     const auto& [a, b, c] = triangles_[t];
     const std::array<FarPoint, 3> corners{vertex_[a], vertex_[b], vertex_[c]};
-    std::vector<Part> parts = {{corners, bound_of(corners), 0}};
+    const auto known_here = [&] { return more_than(std::max(known, result_.by_triangle[t].distance)); };
+    std::vector<Part> parts = {{corners, bound_of(corners, known_here()), 0}};
     for (unsigned samples = 0; !parts.empty() && samples < kSamples;) {
       const Part part = parts.back();
       parts.pop_back();
-      if (part.bound <= more_than(std::max(known, result_.by_triangle[t].distance)) ||
-          part.halvings == kHalvings)
-        continue;
+      if (part.bound <= known_here() || part.halvings == kHalvings) continue;
       const unsigned apex = opposite_to_longest_side(part);
       const Vec3 between = 0.5 * (part.corners[next(apex)].point + part.corners[previous(apex)].point);
       const FarPoint middle = sample(between, part.corners[apex].nearest);
@@ -225,7 +234,7 @@ class Measurement {
       for (const unsigned k : {next(apex), previous(apex)}) {
         Part half = part;
         half.corners[k] = middle;
-        half.bound = std::min(part.bound, bound_of(half.corners));
+        half.bound = std::min(part.bound, bound_of(half.corners, known_here()));
         ++half.halvings;
         parts.push_back(half);
       }
@@ -242,15 +251,50 @@ class Measurement {
     return side(2) > side(apex) ? 2 : apex;
   }
 
-  /// The distance to any one triangle is largest at a corner of a part.
-  [[nodiscard]] double bound_of(const std::array<FarPoint, 3>& corners) const {
+  /// The distance to any one triangle is largest at a corner of a part. Where that does not show that all of
+  /// it is near enough, a part that lies over two neighbours is cut between them.
+  [[nodiscard]] double bound_of(const std::array<FarPoint, 3>& corners, double enough) const {
     double least = INFINITY;
     for (const FarPoint& one : corners) {
       double largest = 0;
       for (const FarPoint& corner : corners) largest = std::max(largest, distance(corner, one.nearest));
       least = std::min(least, largest);
     }
+    for (unsigned k = 0; k < 3 && least > enough; ++k)
+      least = std::min(least, bound_over_both(corners, corners[k].nearest, corners[next(k)].nearest));
     return least;
+  }
+
+  /// A bound from two triangles of the other surface with an edge in common: that to the one on its side of
+  /// the plane that stands on that edge, that to the other on the other. Infinite for any other two.
+  [[nodiscard]] double bound_over_both(const std::array<FarPoint, 3>& corners, Index one, Index other) const {
+    unsigned side = 0;
+    while (side < 3 && to_.topology.opposite(3 * one + side) / 3 != other) ++side;
+    if (one == other || side == 3) return INFINITY;
+    const std::span<const Vec3> x = to_.positions;
+    const auto normal = [&](Index t) -> Vec3 {
+      const auto& [a, b, c] = to_.triangles[t];
+      return area_vector(x[a], x[b], x[c]).stableNormalized();
+    };
+    const Vec3& first = x[to_.triangles[one][next(side)]];
+    const Vec3 edge = x[to_.triangles[one][previous(side)]] - first;
+    const Vec3 across = edge.cross(normal(one) + normal(other));
+    std::array<double, 3> beyond;
+    for (unsigned k = 0; k < 3; ++k) beyond[k] = across.dot(corners[k].point - first);
+    double largest = 0;
+    const auto look = [&](const Vec3& point, Index t) {
+      largest = std::max(largest, to_.index.closest_of(t, point).distance);
+    };
+    for (unsigned k = 0; k < 3; ++k) {
+      look(corners[k].point, beyond[k] > 0 ? other : one);
+      const double here = beyond[k], there = beyond[next(k)];
+      if ((here > 0) == (there > 0)) continue;
+      const Vec3 between =
+          corners[k].point + here / (here - there) * (corners[next(k)].point - corners[k].point);
+      look(between, one);
+      look(between, other);
+    }
+    return largest;
   }
 
   const IndexedSurface& from_;
@@ -258,6 +302,7 @@ class Measurement {
   std::span<const Vec3> x_;
   std::span<const Triangle> triangles_;
   unsigned threads_;
+  double resolution_ = 0;
   std::vector<FarPoint> vertex_, edge_;
   std::vector<std::uint8_t> searched_;  // triangles, all over
   OneWayDistance result_;

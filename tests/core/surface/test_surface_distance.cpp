@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <random>
 
 #include "core/surface/shapes.h"
@@ -70,9 +71,19 @@ TEST(SurfaceDistance, OfOtherTrianglesNamesTheFarthestPoint) {
               there.distance, 1e-12);
 }
 
+TEST(SurfaceDistance, OfTrianglesThatLieInOthersDoesNotTakeLong) {
+  // Each lies over several of the others, and none of those is near all of it.
+  const TriangleMesh then = generate(ShapeKind::hexagonal_square, {.seed = 1, .triangles = 2000});
+  const TriangleMesh now = generate(ShapeKind::hexagonal_square, {.seed = 2, .triangles = 2000});
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_LT(measure(now, then).farthest.distance, 1e-15);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.5);
+}
+
 TEST(SurfaceDistance, IsTheSameForAnyNumberOfThreads) {
-  const TriangleMesh then = saddle(80, 0, 0);
-  const TriangleMesh now = saddle(80, 0.3, 0.4);
+  // More triangles than one thread takes at once.
+  const TriangleMesh then = saddle(33, 0, 0);
+  const TriangleMesh now = saddle(33, 0.3, 0.4);
   const OneWayDistance one = measure(now, then, 1);
   for (const unsigned threads : {2U, 5U}) {
     const OneWayDistance other = measure(now, then, threads);
