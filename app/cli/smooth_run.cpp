@@ -69,9 +69,9 @@ void SmoothRun::declare(CLI::App& app) {
   app.add_option(
          "--max-deviation", deviation_,
          "Largest distance from the input surface, of its bounding-box diagonal; inf: any; widest: 0.003, "
-         "more "
-         "where the mesh is coarse; nearest: mean edge length times dihedral angle, of that no less than an "
-         "eighth (default: nearest, or widest where that pays)")
+         "more where the mesh is coarse; nearest: mean edge length times dihedral angle, of that no less "
+         "than an eighth (default: nearest, or widest where that pays). With the last three, what is as "
+         "smooth as a sphere stays as round; a number is made full use of")
       ->type_name("D")
       ->check([](const std::string& text) {
         const std::string fault = limit_word(text) ? std::string() : kDistance(text);

@@ -247,7 +247,7 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     const BasePtr base = context.bench().base_or_start(document, settings, base_at(*document, place));
     const std::vector<Vec3>& start = base ? *base : mesh.positions;
     const Workbench::ProblemPtr problem = context.bench().problem(document, settings, base);
-    const double limit = deviation_limit(settings, start, *problem);
+    const double limit = kept_near(settings, start, *problem).deviation;
     const SurfaceWatch::Finding found =
         SurfaceWatch(limited_from(settings, mesh, start), start, *problem).look(state->positions(), limit);
     SurfaceMeasured measured{state->geometry, found.deviation, limit, found.deviation.max > limit,

@@ -39,7 +39,10 @@ void Recording::note_fresh_start(PartKind kind, const SmoothingProblem& problem)
   part.done = size();
   part.kind = kind;
   part.exponent = problem.exponent;
-  if (problem.near) part.holds.distance = problem.near->distance;
+  if (problem.near) {
+    part.holds.distance = problem.near->distance;
+    part.holds.on_fits = problem.near->on_fits;
+  }
   part.base = to_base_;
   part.from_base = from_base_ && size() == 0;
   parts.push_back(std::move(part));

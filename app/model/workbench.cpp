@@ -85,19 +85,19 @@ std::span<const Vec3> limited_from(const SmoothingSettings& settings, const Tria
   return settings.reach == Reach::typed ? mesh.positions : start;
 }
 
-double deviation_limit(const SmoothingSettings& settings, std::span<const Vec3> original,
-                       const SmoothingProblem& problem) {
+KeptNear kept_near(const SmoothingSettings& settings, std::span<const Vec3> original,
+                   const SmoothingProblem& problem) {
   switch (settings.reach) {
     case Reach::any:
-      return std::numeric_limits<double>::infinity();
+      return {std::numeric_limits<double>::infinity(), false};
     case Reach::typed:
-      return settings.max_deviation;
+      return {settings.max_deviation, false};
     case Reach::nearest:
     case Reach::widest:
       break;
   }
   const AutomaticLimits limits = automatic_limits(original, problem, problem_options(settings));
-  return settings.reach == Reach::nearest ? limits.nearest : limits.widest;
+  return {settings.reach == Reach::nearest ? limits.nearest : limits.widest, limits.on_fits};
 }
 
 namespace {
@@ -113,10 +113,9 @@ PolishOptions polish_options(const SmoothingSettings& settings) {
 SmoothingProblem make_near_problem(std::span<const Vec3> original, const TriangleMesh& mesh,
                                    const SmoothingSettings& settings) {
   SmoothingProblem problem = make_problem(original, mesh.triangles, problem_options(settings));
-  const double limit = deviation_limit(settings, original, problem);
+  const auto [limit, on_fits] = kept_near(settings, original, problem);
   const SurfaceWatch watch(limited_from(settings, mesh, original), original, problem);
-  const double distance = watch.largest_distance(limit);
-  hold(problem, {.still = {}, .distance = distance}, original);
+  hold(problem, {.still = {}, .distance = watch.largest_distance(limit), .on_fits = on_fits}, original);
   return problem;
 }
 

@@ -106,10 +106,13 @@ class Workbench {
 [[nodiscard]] std::span<const Vec3> limited_from(const SmoothingSettings& settings, const TriangleMesh& mesh,
                                                  std::span<const Vec3> start);
 
-/// How far these settings let the surface go from `original`, over its bounding-box diagonal; infinite: any
-/// way.
-[[nodiscard]] double deviation_limit(const SmoothingSettings& settings, std::span<const Vec3> original,
-                                     const SmoothingProblem& problem);
+/// How these settings keep the surface near `original`.
+struct KeptNear {
+  double deviation;  ///< the largest, over its bounding-box diagonal; infinite: any
+  bool on_fits;      ///< SurfaceHolds
+};
+[[nodiscard]] KeptNear kept_near(const SmoothingSettings& settings, std::span<const Vec3> original,
+                                 const SmoothingProblem& problem);
 
 /// What a run with these settings is made with. Reads the reference file; throws Error.
 [[nodiscard]] RunPlan plan_of(const SmoothingSettings& settings);

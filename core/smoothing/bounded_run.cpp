@@ -161,7 +161,7 @@ SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> posi
 /// The limits that may hold. High exponents are reached in stages of their own.
 AutomaticLimits limits_of(std::span<const Vec3> positions, const SmoothingProblem& problem,
                           const ProblemOptions& options, const DeviationLimit& limit) {
-  if (limit.max) return {*limit.max, *limit.max};
+  if (limit.max) return {*limit.max, *limit.max, false};
   AutomaticLimits limits = automatic_limits(positions, problem, options);
   const bool only_widest = limit.automatic == AutomaticLimit::widest ||
                            (limit.automatic == AutomaticLimit::either && problem.exponent > kDefaultExponent);
@@ -176,8 +176,9 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   const std::vector<Vec3> original(positions.begin(), positions.end());
   const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
   const SurfaceWatch watch(surface, original, unheld);
-  auto [limit, widest] = limits_of(original, unheld, options, attempts.limit);
+  auto [limit, widest, on_fits] = limits_of(original, unheld, options, attempts.limit);
   SurfaceHolds holds = options.holds;
+  holds.on_fits = on_fits;
   double share = 1;  // of the largest distance
   const auto hold_within = [&](double deviation) {
     holds.distance = share * watch.largest_distance(deviation);

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kFine = 0.003;
 constexpr double kMedium = 0.005;
+constexpr double kMediumOnFits = 0.0075;
+/// From this share of agreement on, the fits of a surface are what it is.
+constexpr double kAgreement = 0.9;
 /// The nearest limit is between these shares of the widest.
 constexpr double kLeastShareOfWidest = 1.0 / 8;
 constexpr double kLargestShareOfWidest = 0.7;
@@ -47,11 +50,13 @@ AutomaticLimits automatic_limits(std::span<const Vec3> positions, const Smoothin
   const double chord = problem.plane_normal ? 0 : mean_chord(positions, problem, options);
   const bool free_border = options.boundary == BoundaryRule::free;
   const double border = free_border ? problem.mean_edge_length / bounding_diagonal(positions) : 0;
-  const double widest = std::max({kFine, std::min(kMedium, 1.2 * chord), 0.5 * chord, border});
+  const bool on_fits = problem.surface && problem.surface->agreement() > kAgreement;
+  const double medium = on_fits ? kMediumOnFits : kMedium;
+  const double widest = std::max({kFine, std::min(medium, 1.2 * chord), 0.5 * chord, border});
   const bool may_be_nearer = !problem.plane_normal && !free_border &&
                              options.surface == SurfaceRule::project &&
                              chord <= kLargestShareOfWidest * widest;
-  return {may_be_nearer ? std::max(chord, kLeastShareOfWidest * widest) : widest, widest};
+  return {may_be_nearer ? std::max(chord, kLeastShareOfWidest * widest) : widest, widest, on_fits};
 }
 
 bool wider_limit_pays(const SmoothingProblem& wider, const SmootherFactory& make_smoother,

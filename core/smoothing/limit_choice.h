@@ -17,6 +17,9 @@ struct AutomaticLimits {
   /// of their chords: 1.2 c up to 0.005, and 0.5 c beyond. With a free border at least a mean edge: that is
   /// how far its outline may go.
   double widest;
+  /// Vertices stay on the fits of the surface, which agree with each other: more than 9 in 10 curved
+  /// triangles. Else they give up height before they give up way. 1.2 c counts up to 0.0075 then.
+  bool on_fits;
 };
 [[nodiscard]] AutomaticLimits automatic_limits(std::span<const Vec3> positions,
                                                const SmoothingProblem& problem,

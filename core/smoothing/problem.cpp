@@ -374,7 +374,8 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
     problem.near = {holds.distance,
                     {positions.begin(), positions.end()},
                     problem.surface ? problem.surface->flat()
-                                    : std::make_shared<ClosestPointIndex>(positions, problem.triangles)};
+                                    : std::make_shared<ClosestPointIndex>(positions, problem.triangles),
+                    holds.on_fits};
   }
   if (!holds.still.empty()) {
     problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +

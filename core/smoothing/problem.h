@@ -69,6 +69,8 @@ struct SurfaceHolds {
   std::vector<Index> still;  ///< vertices that stay where they are
   /// In no step does the surface go farther than this from where it is; length units.
   double distance = std::numeric_limits<double>::infinity();
+  /// Vertices stay on the local fits of the surface even where these rise far above its triangles.
+  bool on_fits = false;
 
   bool operator==(const SurfaceHolds&) const = default;
 };
@@ -102,6 +104,7 @@ struct NearSurface {
   /// Its triangles. Where there is a frozen surface they have its numbers, which are the problem's own only
   /// in the copy that smoothers work on.
   std::shared_ptr<const ClosestPointIndex> surface;
+  bool on_fits;  ///< SurfaceHolds
 };
 
 /// The frozen part of a run: connectivity, references, classes, who may move. Positions come with each step.

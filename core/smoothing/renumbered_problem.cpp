@@ -71,7 +71,7 @@ class Renumberer {
     if (!p_.near) return {};
     std::vector<Vec3> positions = in_order(vertices(), p_.near->positions);
     auto surface = p_.surface ? p_.near->surface : std::make_shared<ClosestPointIndex>(positions, moved);
-    return NearSurface{p_.near->distance, std::move(positions), std::move(surface)};
+    return NearSurface{p_.near->distance, std::move(positions), std::move(surface), p_.near->on_fits};
   }
 
   const SmoothingProblem& p_;

@@ -24,6 +24,7 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   const SurfaceAnchor anchor = problem.anchors[vertex];
   const auto [there, at] = problem.surface->project(target, class_on_surface(problem, vertex), anchor);
   if (!problem.near) return there;
+  if (at.edge == kNone && problem.near->on_fits) return there;
   const double share = at.edge == kNone ? kLargestShareOnSurface : kLargestShareOnCurves;
   const double most = share * problem.near->distance;
   if (problem.surface->closest_of(at.triangle, there).distance <= most) return there;

@@ -9,7 +9,7 @@
 namespace isorelax {
 
 /// Where a vertex ends that is sent to `target`: there, or on the frozen surface near it if there is one; and
-/// half-way at most from the triangles as they were to where these must be near.
+/// half-way at most from the triangles as they were to where these must be near, unless it stays on fits.
 [[nodiscard]] Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& target);
 
 /// Where a record's accepted moves lead: x + alpha * displacement for every vertex, kept up to date while

@@ -16,6 +16,8 @@ constexpr double kPlanar = 5e-5;
 /// A sphere lifts the middle of an equilateral triangle by 0.15 of its edge times the turn of the normals of
 /// the triangles about it; noise may not make much more of it.
 constexpr double kLargestLift = 0.4;
+/// Fits that differ by less of their height than this are of one mind.
+constexpr double kSmallSpread = 0.2;
 constexpr int kCorrections = 2;
 
 Vec3 unit(const Vec3& v) {
@@ -50,6 +52,7 @@ FrozenSurface::FrozenSurface(std::span<const Vec3> positions, std::span<const Tr
   find_planar_patches(topology);
   fit_sectors(threads);
   bound_lifts(threads);
+  measure_agreement(threads);
   find_curves(topology, classes, creases);
 }
 
@@ -155,6 +158,34 @@ void FrozenSurface::bound_lifts(unsigned threads) {
       largest_lift_[t] = kLargestLift * std::sqrt(longest2 * std::min(chord2, 1.0));
     }
   });
+}
+
+void FrozenSurface::measure_agreement(unsigned threads) {
+  struct Count {
+    std::size_t curved = 0, agreeing = 0;
+  };
+  std::vector<Count> counts(block_count(triangles_.size()));
+  parallel_for_blocks(triangles_.size(), threads, [&](std::size_t begin, std::size_t end) {
+    Count& count = counts[begin / kBlockSize];
+    for (Index t = static_cast<Index>(begin); t < end; ++t) {
+      if (!(largest_lift_[t] > 0)) continue;
+      const auto& [a, b, c] = triangles_[t];
+      const Vec3 middle = (x_[a] + x_[b] + x_[c]) / 3;
+      std::array<Vec3, 3> lifts;
+      for (unsigned k = 0; k < 3; ++k) lifts[k] = fits_[patches_.of(3 * t + k)].lift(middle) - middle;
+      const Vec3 mean = (lifts[0] + lifts[1] + lifts[2]) / 3;
+      double spread = 0;
+      for (const Vec3& lift : lifts) spread += (lift - mean).norm() / 3;
+      ++count.curved;
+      if (spread < kSmallSpread * mean.norm()) ++count.agreeing;
+    }
+  });
+  Count all;
+  for (const Count& count : counts) {
+    all.curved += count.curved;
+    all.agreeing += count.agreeing;
+  }
+  agreement_ = all.curved == 0 ? 0 : static_cast<double>(all.agreeing) / static_cast<double>(all.curved);
 }
 
 void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& classes,

@@ -65,6 +65,9 @@ class FrozenSurface {
   [[nodiscard]] SurfacePoint closest_of(Index triangle, const Vec3& point) const {
     return flat_->closest_of(triangle, point);
   }
+  /// Share, from 0 to 1, of the curved triangles over whose middle the three fits differ by a small part of
+  /// their height: 1 on a sphere, little on a rough scan, 0 where no triangle is curved.
+  [[nodiscard]] double agreement() const { return agreement_; }
   /// The original triangles.
   [[nodiscard]] const std::shared_ptr<const ClosestPointIndex>& flat() const { return flat_; }
 
@@ -79,6 +82,7 @@ class FrozenSurface {
   void find_planar_patches(const Topology& topology);
   void fit_sectors(unsigned threads);
   void bound_lifts(unsigned threads);
+  void measure_agreement(unsigned threads);
   void find_curves(const Topology& topology, const VertexClasses& classes,
                    std::span<const FeatureCurves::Edge> creases);
   [[nodiscard]] bool is_planar(const Sectors& sectors, Index sector) const;
@@ -101,6 +105,7 @@ class FrozenSurface {
   std::vector<double> largest_lift_;  ///< of each triangle
   std::vector<SurfaceAnchor> anchors_;
   FeatureCurves curves_;
+  double agreement_ = 0;
   double resolution2_ = 0;  ///< squared length that makes no difference
 };
 

@@ -131,6 +131,7 @@ Json part_json(const TracePart& part) {
   json["untangled_first"] = part.from_base;
   json["held"] = part.holds.still;
   json["kept_within"] = part.holds.distance;
+  json["on_fits"] = part.holds.on_fits;
   if (part.words) json["arguments"] = part.words->arguments;
   return json;
 }

@@ -42,6 +42,7 @@ std::string part_text(const TracePart& part) {
   if (std::isfinite(part.holds.distance)) {
     text += ", kept within ";
     append_number(text, part.holds.distance);
+    if (part.holds.on_fits) text += " on the fits";
   }
   if (part.words) {
     text += ", arguments";

@@ -273,6 +273,18 @@ TEST(FrozenSurface, DoesNotOvershootOnNoise) {
   }
 }
 
+TEST(FrozenSurface, ItsFitsAgreeOnASphereAndNotOnNoise) {
+  Frozen sphere(with_vertices(ShapeKind::random_sphere, 2000));
+  EXPECT_EQ(sphere.surface.agreement(), 1);
+  std::mt19937 random(27);
+  std::normal_distribution<double> noise(0, 0.1);
+  TriangleMesh rough = sphere.mesh;
+  for (Index v = 0; v < rough.vertex_count(); ++v)
+    rough.positions[v] *= 1 + noise(random) * sphere.edge_length(v);
+  EXPECT_LT(Frozen(rough, FeatureOptions::none()).surface.agreement(), 0.2);
+  EXPECT_EQ(Frozen(with_vertices(ShapeKind::cube, 600)).surface.agreement(), 0) << "nothing is curved";
+}
+
 TEST(FrozenSurface, IsTheSameForAnyNumberOfThreads) {
   const Frozen f(with_triangles(ShapeKind::part, 9000));
   const FrozenSurface other(f.mesh.positions, f.mesh.triangles, f.topology, f.classes, 3);

@@ -42,7 +42,7 @@ Trace with_parts() {
   trace.parts.resize(2);
   trace.parts[0].base = trace.iterations[0].delta;
   trace.parts[0].from_base = true;
-  trace.parts[0].holds = {{3, 5}, 0.25};
+  trace.parts[0].holds = {{3, 5}, 0.25, true};
   trace.parts[1].done = 1;
   trace.parts[1].exponent = 8;
   trace.parts[1].kind = PartKind::polish;
@@ -89,7 +89,7 @@ TEST(TraceParts, StandInTheFileAsTheyWere) {
   EXPECT_NE(base_of(back, back.parts[0]), back.positions);
   EXPECT_EQ(words_of(back, back.parts[0]), static_cast<const RunWords&>(trace));
   EXPECT_EQ(part_text(back.parts[0]),
-            "from iteration 1: untangled first, exponent 2, 2 vertices held, kept within 0.25");
+            "from iteration 1: untangled first, exponent 2, 2 vertices held, kept within 0.25 on the fits");
   EXPECT_EQ(part_text(back.parts[1]), "from iteration 2: polish, exponent 8, arguments --mu 0.5");
 }
 
