@@ -8,7 +8,7 @@ target_compile_options(isorelax_build_flags INTERFACE
   # Results are compared bit for bit between builds and thread counts: no contraction into fused operations.
   -ffp-contract=off
   # In a unity build every type of an anonymous namespace looks like one of a header.
-  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>
+  $<$<BOOL:${CMAKE_UNITY_BUILD}>:$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>>
   # g++ 12 sees an overlap in "text" + std::string that is not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # The same bug by other names, silent where the headers of the standard library are not precompiled.

@@ -64,6 +64,7 @@ std::vector<double> logarithmic_values(const Range& range, int most) {
 int decimals_for(const Range& range, int most) {
   const double width = range.high - range.low;
   const double step = round_up_step(width / (most - 1));
+  if (!(step > 0)) return kMostDecimals + 1;  // the smallest numbers have no halves
   int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   while (decimals <= kMostDecimals &&
          !(is_shown_by(range.low, decimals, width) && is_shown_by(range.high, decimals, width)))

@@ -256,8 +256,8 @@ TEST(Vtk, OnlyATitleOfItsOwnBecomesAComment) {
                               vtk_square().substr(vtk_head("3.0", "ASCII", "POLYDATA").size());
     EXPECT_TRUE(read_vtk(bytes, "mesh.vtk").mesh.attributes.comments.empty()) << title;
   }
-  EXPECT_EQ(read_vtk("# vtk DataFile Version 3.0\r\n a cow \r\nASCII\r\nDATASET POLYDATA\r\n" + kVtkSquare +
-                         "POLYGONS 1 4\r\n3 0 1 2\r\n",
+  EXPECT_EQ(read_vtk("# vtk DataFile Version 3.0\r\n a cow \r\nASCII\r\nDATASET POLYDATA\r\n" +
+                         std::string(kVtkSquare) + "POLYGONS 1 4\r\n3 0 1 2\r\n",
                      "mesh.vtk")
                 .mesh.attributes.comments,
             std::vector<std::string>{"a cow"});

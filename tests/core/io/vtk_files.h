@@ -15,7 +15,7 @@ inline std::string vtk_head(const std::string& version, const std::string& encod
 }
 
 /// A square of four points as text.
-inline const std::string kVtkSquare = "POINTS 4 double\n0 0 0 1 0 0 0 1 0 1 1 0\n";
+inline constexpr char kVtkSquare[] = "POINTS 4 double\n0 0 0 1 0 0 0 1 0 1 1 0\n";
 
 /// A text file with that square as two triangles and whatever follows.
 inline std::string vtk_square(const std::string& rest = "") {
@@ -44,14 +44,15 @@ inline std::string xml_file(const std::string& type, const std::string& pieces,
          "</" + type + ">\n</VTKFile>\n";
 }
 
-inline const std::string kXmlSquare =
-    "<Points>" + xml_array("Float64", "p", 3, "0 0 0 1 0 0 0 1 0 1 1 0") + "</Points>\n";
+inline std::string xml_points_of_square() {
+  return "<Points>" + xml_array("Float64", "p", 3, "0 0 0 1 0 0 0 1 0 1 1 0") + "</Points>\n";
+}
 
 /// An unstructured grid of one piece: the square as two triangles, with this data.
 inline std::string xml_square(const std::string& point_data = "", const std::string& cell_data = "") {
   return xml_file("UnstructuredGrid", "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n<PointData>" +
                                           point_data + "</PointData>\n<CellData>" + cell_data +
-                                          "</CellData>\n" + kXmlSquare + "<Cells>" +
+                                          "</CellData>\n" + xml_points_of_square() + "<Cells>" +
                                           xml_array("Int64", "connectivity", 1, "0 1 2 2 1 3") +
                                           xml_array("Int64", "offsets", 1, "3 6") +
                                           xml_array("UInt8", "types", 1, "5 5") + "</Cells>\n</Piece>\n");
