@@ -29,4 +29,23 @@ std::vector<Index> flat_patches(const Topology& topology, std::span<const double
   return patches;
 }
 
+std::vector<std::uint8_t> meshed_patches(const Topology& topology, std::span<const Index> patches) {
+  std::vector<Index> inside(patches.size(), 0), on_rim(patches.size(), 0);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    const auto corners = topology.corners_of(v);
+    const auto patch = [&](std::size_t i) { return patches[corners[i] / 3]; };
+    bool one = !topology.is_boundary(v);
+    for (std::size_t i = 0; i < corners.size(); ++i) one = one && patch(i) == patch(0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      bool first = patch(i) != kNone;
+      for (std::size_t k = 0; k < i; ++k) first = first && patch(k) != patch(i);
+      if (first) ++(one ? inside : on_rim)[patch(i)];
+    }
+  }
+  std::vector<std::uint8_t> meshed(patches.size(), 0);
+  for (Index t = 0; t < patches.size(); ++t)
+    meshed[t] = patches[t] != kNone && inside[patches[t]] >= on_rim[patches[t]] ? 1 : 0;
+  return meshed;
+}
+
 }  // namespace isorelax

@@ -13,4 +13,9 @@ namespace isorelax {
 [[nodiscard]] std::vector<Index> flat_patches(const Topology& topology, std::span<const double> turns_deg,
                                               std::span<const FeatureEdge> creases);
 
+/// Marks the triangles of those patches that have as many vertices inside as on their rims, or more: what
+/// was meshed for its own sake, and not only spanned between its corners.
+[[nodiscard]] std::vector<std::uint8_t> meshed_patches(const Topology& topology,
+                                                       std::span<const Index> patches);
+
 }  // namespace isorelax

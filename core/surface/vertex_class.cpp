@@ -16,6 +16,8 @@ namespace {
 /// not.
 constexpr double kStraightDeg = 0.003;
 constexpr double kKinkDeg = 0.05;
+/// A meshed flat face ends in an edge that turns by more than this, not in an uneven triangle.
+constexpr double kRimDeg = 2;
 
 /// Angle of a matrix eigenvalue ratio: a crease with dihedral turn phi between equal areas has l2 / l1 =
 /// tan^2(phi / 2).
@@ -73,9 +75,13 @@ class Classifier {
   /// Between the passes: what is_crease_ and the lines go by.
   void find_lines() {
     r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
+    const bool turns = std::ranges::any_of(turns_, [](double turn) { return turn > kRimDeg; });
+    if (turns && options_.ridge_angle_deg < 180) {
+      flat_ = flat_patches(topology_, turns_, r_.creases);
+      add_rims();
+    }
     for (const FeatureEdge& e : r_.creases)
       is_crease_[e.corner] = is_crease_[topology_.opposite(e.corner)] = 1;
-    if (!r_.creases.empty()) flat_ = flat_patches(topology_, turns_, r_.creases);
   }
 
   /// Second pass: needs the creases.
@@ -90,6 +96,21 @@ class Classifier {
   }
 
  private:
+  /// Where a meshed flat face ends in a turn, however gentle, somebody drew an edge.
+  void add_rims() {
+    const std::vector<std::uint8_t> meshed = meshed_patches(topology_, flat_);
+    std::vector<std::uint8_t> known(turns_.size(), 0);
+    for (const FeatureEdge& e : r_.creases) known[e.corner] = 1;
+    for (Corner c = 0; c < turns_.size(); ++c) {
+      const Corner other = topology_.opposite(c);
+      if (other == kNone || other < c || known[c] != 0 || turns_[c] <= kRimDeg) continue;
+      if (flat_[c / 3] == flat_[other / 3] || meshed[c / 3] + meshed[other / 3] == 0) continue;
+      const Triangle& t = triangles_[c / 3];
+      r_.creases.push_back({{t[next(c % 3)], t[previous(c % 3)]}, c});
+    }
+    std::ranges::sort(r_.creases, {}, &FeatureEdge::corner);
+  }
+
   void set(Index v, VertexClass c, double margin) {
     r_.classes[v] = c;
     r_.margin_deg[v] = margin;
@@ -198,7 +219,7 @@ class Classifier {
   VertexClasses& r_;
   std::span<const double> turns_;        // of the edge opposite to each corner
   std::vector<std::uint8_t> is_crease_;  // likewise
-  std::vector<Index> flat_;              // flat face of each triangle; only where there are creases
+  std::vector<Index> flat_;              // flat face of each triangle; only where there can be creases
 };
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "generate/generate.h"
+#include "core/surface/shapes.h"
+#include "mesh/angle.h"
 #include "surface/feature_edges.h"
 
 namespace isorelax {
@@ -42,6 +43,32 @@ void expect_classes_of_a_cube(double jitter) {
 TEST(VertexClasses, OfACubeAreEightCornersTwelveRidgesAndSmoothFaces) {
   expect_classes_of_a_cube(0);
   expect_classes_of_a_cube(0.4);
+}
+
+/// Two flat faces of side x side / 2 squares that meet at this turn, at x = 0.
+TriangleMesh roof(Index side, double turn_deg) {
+  TriangleMesh mesh = saddle(side);
+  const double slope = std::tan(0.5 * turn_deg / kDegrees);
+  for (Vec3& x : mesh.positions) x.z() = -slope * std::abs(x.x());
+  return mesh;
+}
+
+std::size_t count_ridge(const TriangleMesh& mesh, const FeatureOptions& options = {}) {
+  const VertexClasses found = classify(mesh, options);
+  std::size_t count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (found.classes[v] != VertexClass::ridge) continue;
+    EXPECT_EQ(mesh.positions[v].x(), 0);
+    ++count;
+  }
+  return count;
+}
+
+TEST(VertexClasses, MeshedFlatFacesEndInRidgesHoweverGentle) {
+  EXPECT_EQ(count_ridge(roof(12, 10)), 11U);
+  EXPECT_EQ(count_ridge(roof(12, 1)), 0U) << "an uneven triangle turns as far";
+  EXPECT_EQ(count_ridge(roof(2, 10)), 0U) << "spanned between its corners";
+  EXPECT_EQ(count_ridge(roof(12, 10), FeatureOptions::none()), 0U);
 }
 
 TEST(VertexClasses, OfACylinderAreTwoCircularRidges) {
