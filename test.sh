@@ -27,6 +27,8 @@ esac
 untimed='Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:*DoesNotTakeLong:Files.TimeFollows*:MillionTriangles.*'
 # Long runs that are about figures: other tests make the same kinds of steps, on smaller meshes.
 figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:LimitChoice.ABump*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*:Polish.GoesAlong*:OneByOne.IsWhat*:BoundedRun.EndsNot*'
+# Where the sanitizers find names.
+symbolizer=external_symbolizer_path=/usr/lib/llvm-14/bin/llvm-symbolizer
 # What computes on several threads, and the session with its worker.
 parallel='*Threads*:SessionTest.*:TimelineTest.*:BoundedRun.*:Untangle.*'
 
@@ -102,7 +104,7 @@ if stage 'build with address and undefined-behaviour sanitizers' build asan; the
     leaks=0
     say 'Leaks are not looked for: this system does not let a process trace itself.'
   fi
-  ASAN_OPTIONS="detect_leaks=$leaks:strict_string_checks=1:detect_stack_use_after_return=1" \
+  ASAN_OPTIONS="$symbolizer:detect_leaks=$leaks:strict_string_checks=1:detect_stack_use_after_return=1" \
     LSAN_OPTIONS="suppressions='$root/.ci/leaks.supp':print_suppressions=0" \
     UBSAN_OPTIONS='print_stacktrace=1' GTEST_FILTER="-$untimed:$figures:*Threads*" \
     tests 'tests with address and undefined-behaviour sanitizers' asan -LE 'corpus|bench'
@@ -110,7 +112,7 @@ fi
 
 threaded=(mesh quality surface smoothing motion model)
 if stage 'build with thread sanitizer' build tsan "${threaded[@]/#/test_}"; then
-  GTEST_FILTER="$parallel-$untimed" TSAN_OPTIONS="halt_on_error=1:suppressions='$root/.ci/threads.supp'" \
+  GTEST_FILTER="$parallel-$untimed" TSAN_OPTIONS="$symbolizer:halt_on_error=1:suppressions='$root/.ci/threads.supp'" \
     tests 'tests with thread sanitizer' tsan -R "^($(IFS='|'; echo "${threaded[*]}"))(_[0-9]+)?\$"
 fi
 

@@ -13,6 +13,8 @@ constexpr std::size_t kSamplesAhead = 3;
 constexpr std::size_t kSamplesAheadOfAnEnd = 5;
 /// Radians; what turns by less than this in a vertex is straight there.
 constexpr double kStraight = 5e-5;
+/// The mean turn of creases that are drawn finely.
+constexpr double kFine = 5 / kDegrees;
 /// The lift of an arc over its chord is a quarter of the turn at its ends times half the chord; noise may not
 /// make more of it than this.
 constexpr double kLargestCurveLift = 0.4;
@@ -63,10 +65,10 @@ Vec3 CurveFit::direction(const Vec3& point) const {
 }
 
 FeatureCurves::FeatureCurves(std::span<const Vec3> positions, std::span<const Edge> edges,
-                             std::span<const std::uint8_t> is_corner)
+                             std::span<const std::uint8_t> is_corner, std::size_t creases)
     : x_(positions.begin(), positions.end()), edge_of_(positions.size(), kNone) {
   link(edges, is_corner);
-  for (Index p = 0; p < pieces_.size(); ++p) {
+  for (Index p = are_fine(creases) ? static_cast<Index>(creases) : 0; p < pieces_.size(); ++p) {
     double turns = 0, straightest = kStraight;
     for (const unsigned end : {0U, 1U}) {
       if (pieces_[p].neighbour[end] == kNone) continue;
@@ -79,6 +81,19 @@ FeatureCurves::FeatureCurves(std::span<const Vec3> positions, std::span<const Ed
   for (Index p = 0; p < pieces_.size(); ++p)
     if (pieces_[p].largest_lift > 0)
       for (const unsigned end : {0U, 1U}) fit(p, end);
+}
+
+bool FeatureCurves::are_fine(std::size_t creases) const {
+  double sum = 0;
+  std::size_t count = 0;
+  for (Index p = 0; p < creases; ++p) {
+    for (const unsigned end : {0U, 1U}) {
+      if (pieces_[p].neighbour[end] == kNone || !(turn(p, end) > kStraight)) continue;
+      sum += turn(p, end);
+      ++count;
+    }
+  }
+  return sum < kFine * static_cast<double>(count);
 }
 
 void FeatureCurves::link(std::span<const Edge> edges, std::span<const std::uint8_t> is_corner) {

@@ -45,9 +45,11 @@ class FeatureCurves {
   using Edge = std::array<Index, 2>;
 
   FeatureCurves() = default;
-  /// `is_corner` has an entry for each vertex. O(edges).
+  /// `is_corner` has an entry for each vertex. The first `creases` of the edges are taken as they are,
+  /// without fits, where their chains turn by less than 5 degrees in the mean of the vertices in which they
+  /// turn: drawn that finely, they say themselves what they are. O(edges).
   FeatureCurves(std::span<const Vec3> positions, std::span<const Edge> edges,
-                std::span<const std::uint8_t> is_corner);
+                std::span<const std::uint8_t> is_corner, std::size_t creases = 0);
 
   /// An edge at the vertex; kNone for a vertex on no curve.
   [[nodiscard]] Index edge_of(Index vertex) const { return edge_of_[vertex]; }
@@ -74,6 +76,7 @@ class FeatureCurves {
     double squared;
   };
 
+  [[nodiscard]] bool are_fine(std::size_t creases) const;
   void link(std::span<const Edge> edges, std::span<const std::uint8_t> is_corner);
   [[nodiscard]] Vec3 direction(Index piece) const;
   [[nodiscard]] double turn(Index piece, unsigned end) const;

@@ -196,7 +196,7 @@ void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& c
       edges.push_back({triangles_[c / 3][next(c % 3)], triangles_[c / 3][previous(c % 3)]});
   std::vector<std::uint8_t> is_corner(x_.size(), 0);
   for (std::size_t v = 0; v < x_.size(); ++v) is_corner[v] = classes.classes[v] == VertexClass::corner;
-  curves_ = FeatureCurves(x_, edges, is_corner);
+  curves_ = FeatureCurves(x_, edges, is_corner, creases.size());
   anchors_.resize(x_.size());
   for (Index v = 0; v < x_.size(); ++v) {
     const auto corners = topology.corners_of(v);

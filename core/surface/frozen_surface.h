@@ -29,8 +29,8 @@ struct Projection {
 /// The surface is smoother than its triangles: over a triangle it is the average, weighted with the
 /// barycentric coordinates, of local polynomial fits at its three vertices (WALF: Jiao & Wang 2012), so that
 /// it passes through all the original vertices. Fits never reach across a crease or a border; creases and
-/// borders are curves of their own. Planar patches are exactly planar. Nowhere is it farther from its
-/// triangles than the turn of their normals explains.
+/// borders are curves of their own, creases drawn finely the lines that they are. Planar patches are exactly
+/// planar. Nowhere is it farther from its triangles than the turn of their normals explains.
 class FrozenSurface {
  public:
   FrozenSurface() = default;

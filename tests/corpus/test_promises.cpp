@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/mesh_file.h"
 #include "smoothing/bounded_run.h"
@@ -92,6 +93,28 @@ TEST(Promises, TheRimsOfFlatFacesStayInTheirPlanes) {
     }
   }
   EXPECT_GT(checked, 520U);
+}
+
+TEST(Promises, CreasesDrawnFinelyStayWhatTheyAre) {
+  const TriangleMesh before = read("fandisk");
+  TriangleMesh after = before;
+  smooth(after, {});
+  const VertexClasses classes = classify_vertices(before.positions, before.triangles,
+                                                  Topology(before.triangles, before.vertex_count()), {});
+  std::size_t moved = 0;
+  for (Index v = 0; v < before.vertex_count(); ++v) {
+    if (classes.classes[v] != VertexClass::ridge || after.positions[v] == before.positions[v]) continue;
+    double nearest = INFINITY;
+    for (const FeatureEdge& e : classes.creases) {
+      const Vec3& a = before.positions[e.vertices[0]];
+      const Vec3 along = before.positions[e.vertices[1]] - a;
+      const double share = std::clamp(along.dot(after.positions[v] - a) / along.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (after.positions[v] - a - share * along).norm());
+    }
+    EXPECT_LE(nearest, 1e-12 * diagonal(before)) << "vertex " << v;
+    ++moved;
+  }
+  EXPECT_GT(moved, 600U);
 }
 
 }  // namespace
