@@ -247,7 +247,9 @@ void draw_class_section(const Ui& ui, const VertexExplanation& e) {
                  exact_text(e.margin_deg), "How far what decided is from another class."});
   measure_row(ui, "class/spread", "Spread of normals", e.spread,
               "2 atan sqrt(l2 / l1) of the eigenvalues; from the threshold on a crease may run here.");
-  measure_row(ui, "class/edge", "Sharpest edge", e.sharpest_edge, "Largest dihedral turn of its edges.");
+  measure_row(
+      ui, "class/edge", "Sharpest edge", e.sharpest_edge,
+      "Largest dihedral turn of its edges; a flat face that is meshed ends in a ridge from 2 degrees on.");
   measure_row(ui, "class/defect", "Angle defect", e.angle_defect,
               "2 pi minus the sum of angles; from the threshold on a corner.");
   measure_row(ui, "class/turn", "Turn of its line", e.turn,

@@ -161,12 +161,9 @@ void FrozenSurface::bound_lifts(unsigned threads) {
 }
 
 void FrozenSurface::measure_agreement(unsigned threads) {
-  struct Count {
-    std::size_t curved = 0, agreeing = 0;
-  };
-  std::vector<Count> counts(block_count(triangles_.size()));
+  enum class Fits : std::uint8_t { none, differ, agree };
+  std::vector<Fits> over(triangles_.size(), Fits::none);
   parallel_for_blocks(triangles_.size(), threads, [&](std::size_t begin, std::size_t end) {
-    Count& count = counts[begin / kBlockSize];
     for (Index t = static_cast<Index>(begin); t < end; ++t) {
       if (!(largest_lift_[t] > 0)) continue;
       const auto& [a, b, c] = triangles_[t];
@@ -176,16 +173,12 @@ void FrozenSurface::measure_agreement(unsigned threads) {
       const Vec3 mean = (lifts[0] + lifts[1] + lifts[2]) / 3;
       double spread = 0;
       for (const Vec3& lift : lifts) spread += (lift - mean).norm() / 3;
-      ++count.curved;
-      if (spread < kSmallSpread * mean.norm()) ++count.agreeing;
+      over[t] = spread < kSmallSpread * mean.norm() ? Fits::agree : Fits::differ;
     }
   });
-  Count all;
-  for (const Count& count : counts) {
-    all.curved += count.curved;
-    all.agreeing += count.agreeing;
-  }
-  agreement_ = all.curved == 0 ? 0 : static_cast<double>(all.agreeing) / static_cast<double>(all.curved);
+  const auto agreeing = static_cast<double>(std::ranges::count(over, Fits::agree));
+  const double curved = agreeing + static_cast<double>(std::ranges::count(over, Fits::differ));
+  agreement_ = curved == 0 ? 0 : agreeing / curved;
 }
 
 void FrozenSurface::find_curves(const Topology& topology, const VertexClasses& classes,

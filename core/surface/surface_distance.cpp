@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,8 +15,6 @@ namespace {
 
 /// What can be farther than the largest distance by less than this share of it is not looked into.
 constexpr double kTolerance = 1e-3;
-/// Nor what is farther by less than this share of the largest coordinate: closest points are no more exact.
-constexpr double kResolution = 16 * std::numeric_limits<double>::epsilon();
 /// An edge is divided that often at most, one part in another, and not too near to an end.
 constexpr unsigned kDivisions = 12;
 constexpr double kLeastPart = 0.05;
@@ -29,12 +26,7 @@ constexpr unsigned kSamples = 2000;
 class Measurement {
  public:
   Measurement(const IndexedSurface& from, const IndexedSurface& to, unsigned threads)
-      : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {
-    double largest = 0;
-    for (const std::span<const Vec3> positions : {from.positions, to.positions})
-      for (const Vec3& x : positions) largest = std::max(largest, x.cwiseAbs().maxCoeff());
-    resolution_ = kResolution * largest;
-  }
+      : from_(from), to_(to), x_(from.positions), triangles_(from.triangles), threads_(threads) {}
 
   void sample_vertices() {
     vertex_.assign(x_.size(), {});
@@ -167,9 +159,7 @@ class Measurement {
     if (from.nearest == triangle) return from.distance;
     return to_.index.closest_of(triangle, from.point).distance;
   }
-  [[nodiscard]] double more_than(double largest) const {
-    return std::max((1 + kTolerance) * largest, largest + resolution_);
-  }
+  [[nodiscard]] static double more_than(double largest) { return (1 + kTolerance) * largest; }
 
   void divide_edges() {
     for_edges([&](Corner c, Index a, Index b) {
@@ -302,7 +292,6 @@ class Measurement {
   std::span<const Vec3> x_;
   std::span<const Triangle> triangles_;
   unsigned threads_;
-  double resolution_ = 0;
   std::vector<FarPoint> vertex_, edge_;
   std::vector<std::uint8_t> searched_;  // triangles, all over
   OneWayDistance result_;

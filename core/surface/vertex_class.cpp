@@ -75,13 +75,12 @@ class Classifier {
   /// Between the passes: what is_crease_ and the lines go by.
   void find_lines() {
     r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
-    const bool turns = std::ranges::any_of(turns_, [](double turn) { return turn > kRimDeg; });
-    if (turns && options_.ridge_angle_deg < 180) {
-      flat_ = flat_patches(topology_, turns_, r_.creases);
-      add_rims();
-    }
-    for (const FeatureEdge& e : r_.creases)
-      is_crease_[e.corner] = is_crease_[topology_.opposite(e.corner)] = 1;
+    for (const FeatureEdge& e : r_.creases) mark_crease(e.corner);
+    const bool rims = options_.ridge_angle_deg < 180 &&
+                      std::ranges::any_of(turns_, [](double turn) { return turn > kRimDeg; });
+    if (!rims && r_.creases.empty()) return;
+    flat_ = flat_patches(topology_, turns_, r_.creases);
+    if (rims) add_rims();
   }
 
   /// Second pass: needs the creases.
@@ -96,17 +95,18 @@ class Classifier {
   }
 
  private:
+  void mark_crease(Corner c) { is_crease_[c] = is_crease_[topology_.opposite(c)] = 1; }
+
   /// Where a meshed flat face ends in a turn, however gentle, somebody drew an edge.
   void add_rims() {
     const std::vector<std::uint8_t> meshed = meshed_patches(topology_, flat_);
-    std::vector<std::uint8_t> known(turns_.size(), 0);
-    for (const FeatureEdge& e : r_.creases) known[e.corner] = 1;
     for (Corner c = 0; c < turns_.size(); ++c) {
       const Corner other = topology_.opposite(c);
-      if (other == kNone || other < c || known[c] != 0 || turns_[c] <= kRimDeg) continue;
+      if (other == kNone || other < c || is_crease_[c] != 0 || turns_[c] <= kRimDeg) continue;
       if (flat_[c / 3] == flat_[other / 3] || meshed[c / 3] + meshed[other / 3] == 0) continue;
       const Triangle& t = triangles_[c / 3];
       r_.creases.push_back({{t[next(c % 3)], t[previous(c % 3)]}, c});
+      mark_crease(c);
     }
     std::ranges::sort(r_.creases, {}, &FeatureEdge::corner);
   }
@@ -166,8 +166,10 @@ class Classifier {
       corner = std::max({corner, over_ridge(v), 0.0});
     }
     if (corner >= 0) return set(v, VertexClass::corner, corner);
-    const double ridge = std::abs(over_ridge(v));
-    set(v, ends.empty() ? VertexClass::smooth : VertexClass::ridge, std::min(ridge, -corner));
+    // What is no crease by its spread is one as the rim of a flat face.
+    double ridge = over_ridge(v);
+    if (ridge < 0 && !ends.empty()) ridge = r_.sharpest_edge_deg[v] - kRimDeg;
+    set(v, ends.empty() ? VertexClass::smooth : VertexClass::ridge, std::min(std::abs(ridge), -corner));
   }
 
   /// How far the vertex is over the ridge's thresholds.

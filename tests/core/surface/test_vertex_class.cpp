@@ -69,6 +69,11 @@ TEST(VertexClasses, MeshedFlatFacesEndInRidgesHoweverGentle) {
   EXPECT_EQ(count_ridge(roof(12, 1)), 0U) << "an uneven triangle turns as far";
   EXPECT_EQ(count_ridge(roof(2, 10)), 0U) << "spanned between its corners";
   EXPECT_EQ(count_ridge(roof(12, 10), FeatureOptions::none()), 0U);
+  EXPECT_EQ(count_ridge(roof(12, 1), {.ridge_angle_deg = 0.5}), 11U) << "a crease by its own threshold";
+  const TriangleMesh gentle = roof(12, 10);
+  const VertexClasses found = classify(gentle);
+  const auto ridge = std::ranges::find(found.classes, VertexClass::ridge) - found.classes.begin();
+  EXPECT_NEAR(found.margin_deg[ridge], 10 - 2, 1e-6) << "over what makes a rim a ridge";
 }
 
 TEST(VertexClasses, OfACylinderAreTwoCircularRidges) {
