@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "smoothing/line_bound.h"
 #include "smoothing/problem.h"
-#include "surface/line_bound.h"
 
 namespace isorelax {
 

@@ -105,15 +105,14 @@ void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& 
   if (!add(holds.still, found.far)) grow(holds.still, problem_.triangles, start_.size());
 }
 
-/// Whether the positions surely cover the same part of one plane, so that there is nothing
-/// to measure: all in it but for rounding, the border where it was, no triangle upside down before or after.
+/// Whether the positions surely cover the same part of one plane, so that there is nothing to measure: all in
+/// it but for rounding, the border where it was, no triangle upside down before or after.
 bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const {
   constexpr double kRounding = 1e-14;
   if (!problem_.plane_normal || !inverted_.empty() || !inverted.empty()) return false;
   double low = INFINITY, high = -INFINITY, extent = 0;
   for (const Triangle& t : problem_.triangles) {
     for (const Index v : t) {
-      if (problem_.topology.is_boundary(v) && start_[v] != after[v]) return false;
       extent = std::max(extent, start_[v].cwiseAbs().maxCoeff());
       for (const Vec3& x : {start_[v], after[v]}) {
         low = std::min(low, problem_.plane_normal->dot(x));
@@ -121,7 +120,33 @@ bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const 
       }
     }
   }
-  return high - low <= kRounding * extent;
+  return high - low <= kRounding * extent && keeps_border(after, kRounding * extent);
+}
+
+/// Whether the border only moved along its straight stretches, whose ends stayed.
+bool SurfaceWatch::keeps_border(std::span<const Vec3> after, double rounding) const {
+  struct Neighbours {
+    Index before = kNone, behind = kNone;
+  };
+  std::vector<Neighbours> border(start_.size());
+  for (Corner c = 0; c < 3 * problem_.triangle_count(); ++c) {
+    if (!problem_.topology.is_boundary_edge(c)) continue;
+    const Triangle& t = problem_.triangles[c / 3];
+    const Index from = t[next(c % 3)], to = t[previous(c % 3)];
+    if (border[from].behind != kNone || border[to].before != kNone) return false;
+    border[from].behind = to;
+    border[to].before = from;
+  }
+  const auto goes_straight_at = [&](Index v, std::span<const Vec3> x) {
+    const Vec3 in = x[v] - x[border[v].before], out = x[border[v].behind] - x[v];
+    return in.dot(out) > 0 && in.cross(out).norm() <= rounding * (in + out).norm();
+  };
+  for (Index v = 0; v < start_.size(); ++v) {
+    if (start_[v] == after[v] || !problem_.topology.is_boundary(v)) continue;
+    if (border[v].before == kNone || border[v].behind == kNone) return false;
+    if (!goes_straight_at(v, start_) || !goes_straight_at(v, after)) return false;
+  }
+  return true;
 }
 
 }  // namespace isorelax

@@ -38,6 +38,7 @@ class SurfaceWatch {
 
  private:
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
+  [[nodiscard]] bool keeps_border(std::span<const Vec3> after, double rounding) const;
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;

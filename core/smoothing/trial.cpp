@@ -22,7 +22,9 @@ Vec3 bring_back(const SmoothingProblem& problem, Index vertex, const Vec3& targe
   if (!problem.surface) return target;
   // The walk starts where the vertex was at the start of the run: the point does not depend on the way there.
   const SurfaceAnchor anchor = problem.anchors[vertex];
-  const auto [there, at] = problem.surface->project(target, class_on_surface(problem, vertex), anchor);
+  const VertexClass vertex_class = class_on_surface(problem, vertex);
+  if (problem.plane_normal && vertex_class == VertexClass::smooth) return target;  // in the plane already
+  const auto [there, at] = problem.surface->project(target, vertex_class, anchor);
   if (!problem.near) return there;
   if (at.edge == kNone && problem.near->on_fits) return there;
   const double share = at.edge == kNone ? kLargestShareOnSurface : kLargestShareOnCurves;

@@ -11,13 +11,14 @@ namespace isorelax {
 
 /// A surface whose distance to another one is measured. Keeps references to all that it is made from.
 struct IndexedSurface {
-  IndexedSurface(std::span<const Vec3> x, std::span<const Triangle> t, const Topology& around)
-      : positions(x), triangles(t), topology(around), index(x, t) {}
+  IndexedSurface(std::span<const Vec3> x, std::span<const Triangle> t, const Topology& around);
 
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
   const Topology& topology;
   ClosestPointIndex index;
+  std::vector<Vec3> normals;  ///< unit, of the triangles; zero where there is no area
+  double rounding = 0;        ///< length that coordinates may be rounded by
 };
 
 /// The point of a triangle that was found to be farthest from the other surface.
@@ -39,12 +40,10 @@ struct OneWayDistance {
 /// searches.
 ///
 /// The integral is from samples: vertices, midpoints of edges, centroids and points inside. The largest
-/// distance is looked for where it can be if the surfaces lie over each other: at the vertices of both and
-/// along all edges, where two triangles' distances bound all between (each is convex), so that edges are
-/// divided until no part of theirs can be farther by more than a thousandth. The 64 triangles with the
-/// largest distances are then searched all over, halved until the same is true of them; all others are for
-/// what is farther still. How often both are divided is bounded: where surfaces are far from lying over each
-/// other, less may be found. Never above the true distance. The same for any number of threads.
+/// distance is found to a thousandth, or to what coordinates are rounded by: where a triangle is not shown to
+/// be nearer than the largest that was found (point_beyond), it is halved until it is. How often is bounded:
+/// where surfaces are far from lying over each other, less may be found. Never above the true distance. The
+/// same for any number of threads.
 [[nodiscard]] std::array<OneWayDistance, 2> measure_both_ways(const IndexedSurface& a,
                                                               const IndexedSurface& b, unsigned threads);
 
