@@ -37,7 +37,7 @@ std::vector<std::string> note_of(const UntangleResult& untangled) {
   };
   if (untangled.moved.empty()) {
     return {triangles(untangled.before) + " upside down " + (untangled.before == 1 ? "is" : "are") +
-            " left: few folds of a surface, or held by vertices that may not move"};
+            " left: sharp folds of the surface, or held by vertices that may not move"};
   }
   return {triangles(untangled.before) + (untangled.before == 1 ? " was" : " were") +
           " upside down: untangled by moving " + std::to_string(untangled.moved.size()) +

@@ -4,13 +4,17 @@
 #include "quality/inverted.h"
 #include "smoothing/orientation_field.h"
 #include "smoothing/problem.h"
+#include "surface/surface_distance.h"
 
 namespace isorelax {
 namespace {
 
-/// On a surface, one in so many triangles has to be upside down. A few in a scan are its sharp folds: turning
-/// them moves corners and leaves the surface, which costs more than it brings.
+/// On a surface where fewer than one in so many triangles lie upside down they may be its own sharp folds:
+/// turning those moves corners and leaves the surface, which costs more than it brings. Where a vertex only
+/// lies on the wrong side of others, the surface hardly changes: by less than this share of the longest edge
+/// there.
 constexpr std::size_t kOnePerTriangles = 200;
+constexpr double kNearShare = 0.1;
 
 /// What may move however upside down its triangles are: inside of a sound two-sided surface.
 std::vector<std::uint8_t> inner_vertices(const Topology& topology) {
@@ -35,6 +39,72 @@ void hold_features(std::vector<std::uint8_t>& movable, std::span<const Vec3> pos
   }
 }
 
+/// Numbers vertices that moved by the groups that they are in: two of one triangle are in one group.
+std::vector<Index> groups_of(std::span<const Index> moved, std::span<const Triangle> triangles,
+                             const Topology& topology) {
+  std::vector<Index> group(topology.vertex_count(), kNone);
+  std::vector<std::uint8_t> is_moved(topology.vertex_count(), 0);
+  for (const Index v : moved) is_moved[v] = 1;
+  Index count = 0;
+  for (const Index seed : moved) {
+    if (group[seed] != kNone) continue;
+    std::vector<Index> front{seed};
+    group[seed] = count;
+    while (!front.empty()) {
+      const Index v = front.back();
+      front.pop_back();
+      for (const Corner c : topology.corners_of(v))
+        for (const Index w : triangles[c / 3]) {
+          if (is_moved[w] == 0 || group[w] != kNone) continue;
+          group[w] = count;
+          front.push_back(w);
+        }
+    }
+    ++count;
+  }
+  return group;
+}
+
+/// Takes back groups of moves that led away from the surface or turned nothing over.
+void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<const Triangle> triangles,
+                   const Topology& topology, UntangleResult& result, unsigned threads) {
+  struct Group {
+    double distance = 0, longest_edge = 0;
+    bool turns = false;
+  };
+  const std::vector<Index> group_of = groups_of(result.moved, triangles, topology);
+  std::vector<Group> groups(result.moved.size());
+  const auto [there, back] =
+      measure_both_ways({x, triangles, topology}, {input, triangles, topology}, threads);
+  const auto area = [](std::span<const Vec3> at, const Triangle& t) {
+    return area_vector(at[t[0]], at[t[1]], at[t[2]]);
+  };
+  for (Index t = 0; t < triangles.size(); ++t) {
+    const Triangle& corners = triangles[t];
+    const bool is_turned = area(input, corners).dot(area(x, corners)) < 0;
+    for (const Index v : corners) {
+      if (group_of[v] == kNone) continue;
+      Group& group = groups[group_of[v]];
+      group.distance =
+          std::max({group.distance, there.by_triangle[t].distance, back.by_triangle[t].distance});
+      for (unsigned k = 0; k < 3; ++k)
+        group.longest_edge =
+            std::max(group.longest_edge, (input[corners[next(k)]] - input[corners[k]]).norm());
+      group.turns = group.turns || is_turned;
+    }
+  }
+  std::erase_if(result.moved, [&](Index v) {
+    const Group& group = groups[group_of[v]];
+    const bool stays = group.turns && group.distance <= kNearShare * group.longest_edge;
+    if (!stays) x[v] = input[v];
+    return !stays;
+  });
+  result.after = inverted_triangles(x, triangles, topology, threads).size();
+  if (result.after < result.before) return;
+  std::copy(input.begin(), input.end(), x.begin());
+  result = {result.before, result.before, {}};
+}
+
 }  // namespace
 
 UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangle> triangles,
@@ -45,12 +115,14 @@ UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangl
   for (const Index v : options.pinned) {
     if (v < movable.size()) movable[v] = 0;
   }
-  if (!plane_normal(positions, triangles, topology, options.threads)) {
-    const std::size_t inverted = inverted_triangles(positions, triangles, topology, options.threads).size();
-    if (kOnePerTriangles * inverted < triangles.size()) return {inverted, inverted, {}};
-    hold_features(movable, positions, triangles, topology, options);
-  }
-  return untangle(positions, triangles, topology, movable, options.threads);
+  const bool planar = plane_normal(positions, triangles, topology, options.threads).has_value();
+  if (!planar) hold_features(movable, positions, triangles, topology, options);
+  const std::vector<Vec3> input(positions.begin(), positions.end());
+  UntangleResult result = untangle(positions, triangles, topology, movable, options.threads);
+  const bool few = !planar && kOnePerTriangles * result.before < triangles.size();
+  if (few && !result.moved.empty())
+    take_back_far(positions, input, triangles, topology, result, options.threads);
+  return result;
 }
 
 }  // namespace isorelax

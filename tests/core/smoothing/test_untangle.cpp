@@ -142,6 +142,31 @@ TEST(Untangle, TurnsTrianglesOfASphereAndStaysOnIt) {
   }
 }
 
+TEST(Untangle, OneVertexThatLiesAmongOthersIsPutBack) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 1500});
+    Vec3& thrown = mesh.positions[100 * seed];
+    thrown = (thrown + 0.25 * thrown.unitOrthogonal()).normalized();
+    ASSERT_GT(facing_inward(mesh), 0U);
+    const UntangleResult result = untangle_input(mesh.positions, mesh.triangles, {});
+    EXPECT_EQ(facing_inward(mesh), 0U) << seed;
+    EXPECT_LE(result.moved.size(), 10U);
+    for (const Vec3& p : mesh.positions) EXPECT_NEAR(p.norm(), 1, 1e-3);
+  }
+}
+
+TEST(Untangle, OneFoldThatStandsOutOfTheSurfaceIsItsOwn) {
+  // A spike that is bent over: some of its triangles lie over others, a good way above them.
+  TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = 1, .vertices = 1500});
+  Vec3& tip = mesh.positions[100];
+  tip = 1.07 * (tip + 0.3 * tip.unitOrthogonal()).normalized();
+  const TriangleMesh input = mesh;
+  const UntangleResult result = untangle_input(mesh.positions, mesh.triangles, {});
+  EXPECT_GT(result.before, 0U);
+  EXPECT_EQ(result.after, result.before);
+  EXPECT_EQ(mesh.positions, input.positions);
+}
+
 TEST(Untangle, SliversThatItLeavesDoNotHoldTheirVertices) {
   TriangleMesh mesh = generate(ShapeKind::random_sphere, {.seed = 3, .vertices = 1500});
   Random random(3);
