@@ -43,16 +43,18 @@ void make_folder(const std::string& folder) {
 }  // namespace
 
 void Frames::declare(CLI::App& app) {
-  app.add_option(
-         "--frames", target_,
-         "Draw the run: numbered pictures in this folder, or an animated PNG, on one camera and one range")
-      ->type_name("DIR|FILE.png");
+  CLI::Option* const frames = app.add_option("--frames", target_,
+                                             "Draw the run: numbered pictures in this folder, or an animated "
+                                             "PNG, on one camera and one range")
+                                  ->type_name("DIR|FILE.png");
   app.add_option("--every", every_, "A frame every K iterations, the start and the end too (default 1)")
       ->type_name("K")
-      ->check(CLI::Range(1U, 1000000U));
+      ->check(CLI::Range(1U, 1000000U))
+      ->needs(frames);
   app.add_option("--view", view_,
                  "How the frames are drawn: a saved view, a picture of isorelax, or a camera")
-      ->type_name("FILE|SPEC");
+      ->type_name("FILE|SPEC")
+      ->needs(frames);
 }
 
 void Frames::start(std::span<const Vec3> positions) {

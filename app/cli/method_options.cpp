@@ -38,6 +38,8 @@ Method near_isometry(const CLI::App& app, const MethodSpec& spec, RecordDetail d
                                       {"jacobi", Solver::jacobi},
                                       {"newton", Solver::newton},
                                       {"lbfgs", Solver::lbfgs}});
+  if (spec.relaxation && solver != Solver::jacobi)
+    throw UsageError("--relaxation has no meaning with --solver " + spec.solver);
   JacobiOptions jacobi;
   jacobi.detail = detail;
   if (spec.relaxation) jacobi.relaxation = *spec.relaxation;

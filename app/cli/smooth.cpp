@@ -85,7 +85,12 @@ class SmoothCommand : public Command {
            "tangent\n"
            "plane only, along ridges, and not at all at corners. No triangle is turned over and the energy "
            "never\n"
-           "rises. What cannot be treated (non-manifold places, degenerate triangles) is pinned and named.\n"
+           "rises. Nor does one get a worse angle than the worst of the input (angles up to 120 degrees "
+           "where none "
+           "is\n"
+           "over 100), even where the energy would be less for it; the report counts that under fold. What "
+           "cannot be\n"
+           "treated (non-manifold places, degenerate triangles) is pinned and named.\n"
            "\n"
            "A run stops after --iterations steps, or when the tangent gradient falls below T times its "
            "start, the\n"
@@ -168,7 +173,7 @@ class SmoothCommand : public Command {
       return "without a guard " + std::to_string(outcome.turned_over.size()) +
              " triangles were turned over, the first " + std::to_string(outcome.turned_over.front());
     }
-    if (run_.limit().max && outcome.deviation.max > *run_.limit().max) {
+    if (run_.limit().max && outcome.deviation.max > std::max(*run_.limit().max, kDeviationRounding)) {
       return "without a guard the surface went " + number_text(outcome.deviation.max) +
              " from the input, farther than --max-deviation allows";
     }

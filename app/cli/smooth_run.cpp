@@ -58,7 +58,7 @@ void SmoothRun::declare(CLI::App& app) {
   app.add_option(
          "--polish-mean-loss", polish_options_.largest_mean_loss,
          "For the worst angles, the mean of the triangles' smallest falls by no more, degrees (default 1), "
-         "nor by more than 0.1 beyond what the worst gain")
+         "nor by more than 0.1 beyond what the smallest of all rises or the largest falls")
       ->type_name("DEG")
       ->check(number_between(0, 60));
   app.add_option("--polish-worst-share", polish_options_.worst_share,
@@ -84,7 +84,15 @@ void SmoothRun::declare(CLI::App& app) {
 
 void SmoothRun::check() const {
   const Method method = parse_method(*app_, method_);
-  if (parse_polish() && !method.guarded) throw UsageError("--polish " + polish_ + ": not without a guard");
+  const std::optional<PolishOptions> polish = parse_polish();
+  if (polish && !method.guarded) throw UsageError("--polish " + polish_ + ": not without a guard");
+  const auto needs = [&](const char* option, PolishGoal one) {
+    if (app_->count(option) == 0 || (polish && (polish->goal == one || polish->goal == PolishGoal::both)))
+      return;
+    throw UsageError(std::string(option) + " has no meaning with --polish " + polish_);
+  };
+  needs("--polish-mean-loss", PolishGoal::worst);
+  needs("--polish-worst-share", PolishGoal::mean);
 }
 
 std::optional<PolishOptions> SmoothRun::parse_polish() const {

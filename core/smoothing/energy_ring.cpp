@@ -6,7 +6,7 @@ namespace isorelax {
 namespace {
 
 constexpr unsigned kMaxSteps = 8;
-constexpr unsigned kBlockHalvings = 6;
+constexpr unsigned kBlockHalvings = 24;
 /// A step that gains less than this share of the sum is the last.
 constexpr double kWorthwhileBlockGain = 0.03;
 

@@ -129,8 +129,8 @@ Vec3 NewtonBlock::solve(const Vec3& g) const {
   const double a = h11 + shift;
   const double c = h22 + shift;
   const double determinant = a * c - h12 * h12;
-  if (!(determinant > 0)) return h11 + h22 > 0 ? Vec3(g / (h11 + h22)) : Vec3::Zero();
   const double g2 = g.dot(t2);
+  if (!(determinant > 0)) return h11 + h22 > 0 ? Vec3((g1 * t1 + g2 * t2) / (h11 + h22)) : Vec3::Zero();
   return ((c * g1 - h12 * g2) * t1 + (a * g2 - h12 * g1) * t2) / determinant;
 }
 

@@ -17,12 +17,14 @@ constexpr double kPolishReach = 0.2;
 /// Times that a move is halved before a vertex stays where it is.
 constexpr unsigned kPolishHalvings = 5;
 constexpr unsigned kTurnedHalvings = 2;
-/// Turns of a move that is held back, in the order in which they are tried; radians.
 /// A vertex at bounds that could gain less than this, in degrees or of its energy, stays; one that could gain
 /// more has so many tries, each with what was missing times the factor.
 constexpr double kLeastClimb = 1e-5;
+/// What promises less than that is made of rounding and leads anywhere.
+constexpr double kNoClimb = 1e-10;
 constexpr unsigned kBoundRounds = 4;
 constexpr double kCorrection = 1.5;
+/// Turns of a move that is held back, in the order in which they are tried; radians.
 constexpr std::array kTurns = {0.7, -0.7, 1.3, -1.3};
 
 std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
@@ -100,7 +102,7 @@ std::optional<Vec3> PolishState::climb(Index vertex, const Vec3& at, const Angle
   hold_ = Hold::none;
   const NewtonBlock model = model_of(climb);
   const Vec3 d = model.solve(soft.gradient);
-  if (d.isZero(0)) return std::nullopt;
+  if (!(d.dot(soft.gradient) > kNoClimb)) return std::nullopt;
   if (auto there = along(climb, d, kPolishHalvings)) return there;
   if (held_back_ == 0 || problem_.mobility[vertex] != Mobility::plane) return std::nullopt;
   if (hold_ == Hold::angles) return along_bounds(climb, model);

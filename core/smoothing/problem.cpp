@@ -114,8 +114,9 @@ class ProblemBuilder {
       left_out_.push_back(t);
     }
     if (triangles.empty()) return;
+    const std::string whose = triangles.size() == 1 ? "it is, its" : "they are, their";
     p_.notes.push_back(counted(triangles.size(), kind + " triangle is", kind + " triangles are") +
-                       " left as they are, their vertices pinned: " + list_ids(triangles));
+                       " left as " + whose + " vertices pinned: " + list_ids(triangles));
   }
 
   void apply_class(Index v) {

@@ -29,8 +29,9 @@ std::vector<AngleRange> bounds_of(const PolishState& state, double worst_share) 
   }
   std::vector<AngleRange> bounds(triangles, {0, 180});
   if (smallest.empty()) return bounds;
-  const double count = static_cast<double>(smallest.size());
-  const auto rank = static_cast<std::ptrdiff_t>(std::min(worst_share * count, count - 1));
+  // A share of all triangles: those that cannot change may be among the worst, too.
+  const auto last = static_cast<double>(smallest.size() - 1);
+  const auto rank = static_cast<std::ptrdiff_t>(std::min(std::ceil(worst_share * triangles), last));
   std::nth_element(smallest.begin(), smallest.begin() + rank, smallest.end());
   std::nth_element(largest.begin(), largest.begin() + rank, largest.end(), std::greater<>());
   const double small = smallest[static_cast<std::size_t>(rank)];

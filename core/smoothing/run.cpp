@@ -9,7 +9,8 @@
 namespace isorelax {
 namespace {
 
-/// Largest move, in mean edges, of a mesh that may count as converged by its gradient.
+/// Largest move, in mean edges, and decrease of the energy of a mesh that may count as converged by its
+/// gradient.
 constexpr double kSettled = 1e-3;
 
 /// Steps in a row that have to gain next to nothing: a single one may have been cut back.
@@ -32,8 +33,9 @@ std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord&
     return result.relative_move <= options.tolerance ? std::optional(StopReason::movement) : std::nullopt;
   }
   // Slivers at the start make the first gradient huge: a small ratio alone says little while vertices still
-  // move.
-  if (result.gradient_ratio <= options.tolerance && result.relative_move <= kSettled)
+  // move or the energy still falls.
+  if (result.gradient_ratio <= options.tolerance && result.relative_move <= kSettled &&
+      result.energy_change <= kSettled)
     return StopReason::gradient;
   if (record.moved == 0) return record.energy_passes > 0 ? StopReason::stalled : StopReason::movement;
   if (result.relative_move <= options.tolerance) return StopReason::movement;

@@ -86,7 +86,7 @@ SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions, double
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
                                                                       problem_.topology, problem_.threads);
   found.deviation = deviation.whole;
-  if (deviation.whole.max > limit)
+  if (deviation.whole.max > std::max(limit, kDeviationRounding))
     found.far = vertices_over(deviation, problem_.triangles, kNearLimit * limit);
   return found;
 }

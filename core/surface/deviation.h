@@ -10,6 +10,9 @@ namespace isorelax {
 /// Length of the diagonal of the positions' bounding box; 0 of none.
 [[nodiscard]] double bounding_diagonal(std::span<const Vec3> positions);
 
+/// A deviation up to this may be rounding: that of a surface from itself is not always 0.
+inline constexpr double kDeviationRounding = 1e-14;
+
 /// How far a surface whose vertices moved is from what it was.
 struct Deviation {
   double max = 0;  ///< largest distance between the two surfaces, over the original's bounding-box diagonal

@@ -51,7 +51,7 @@ TEST(BoundedRun, TellsTheEnergyOfAMeshInWhichNothingMayMove) {
   const BoundedResult moved = smooth(mesh, std::numeric_limits<double>::infinity());
   mesh = original;
   const BoundedResult held = smooth(mesh, 0);
-  EXPECT_EQ(held.run.iterations, 0U);
+  EXPECT_EQ(mesh.positions, original.positions);
   EXPECT_EQ(held.run.before.energy, moved.run.before.energy);
   EXPECT_EQ(held.run.after.energy, held.run.before.energy);
 }

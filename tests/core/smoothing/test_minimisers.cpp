@@ -99,6 +99,25 @@ TEST(Minimisers, OfAFanAroundOneVertexLieOnItsAxis) {
   }
 }
 
+TEST(Minimisers, OfAFanAboutAShortEdgeAreReachedByEverySolver) {
+  // The needle on the short edge bends so much that a step which minds only its shape leads far too far.
+  const double half = 0.03;
+  std::vector<Vec3> x = {{0, 0, 0}};
+  for (int i = 1; i < 8; ++i) x.emplace_back(std::cos(i * 0.785), std::sin(i * 0.785), 0);
+  x.emplace_back(1, -half, 0);
+  x.emplace_back(1, half, 0);
+  std::vector<Triangle> triangles;
+  for (Index i = 1; i < x.size(); ++i) triangles.push_back({0, i, i + 1 == x.size() ? 1 : i + 1});
+  for (const double exponent : {2.0, 4.0}) {
+    const ProblemOptions options{.exponent = exponent};
+    const double found = energy_of(minimised(x, triangles, options, Solver::lbfgs), triangles, options);
+    EXPECT_LT(found, 0.5 * energy_of(x, triangles, options));
+    for (const Solver solver : kSolvers)
+      EXPECT_NEAR(energy_of(minimised(x, triangles, options, solver), triangles, options), found,
+                  1e-3 * found);
+  }
+}
+
 TEST(Minimisers, OfASlidingVertexLieInTheMiddleOfItsEdge) {
   const std::vector<Vec3> x = {{-1, 0, 0}, {0.4, 0, 0}, {1, 0, 0}, {0, 1.5, 0}};
   const std::vector<Triangle> triangles = {{0, 1, 3}, {1, 2, 3}};

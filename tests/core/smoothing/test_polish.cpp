@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -208,6 +209,16 @@ TEST(Polish, FindsTheBestMeanOfAVertexAmongFour) {
   const auto smoother = make_polish(problem, {.goal = PolishGoal::mean});
   run(*smoother, problem, mesh.positions, {.iterations = 300, .tolerance = 1e-12});
   EXPECT_NEAR(measure_quality(mesh).mean_min_angle_deg, 45, 1e-3);
+}
+
+TEST(Polish, StaysInThePlaneOfAFreeSquareHoweverItLies) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = seed, .triangles = 100});
+    const Eigen::AngleAxisd turn(0.7 + 0.3 * static_cast<double>(seed), Vec3(0.3, 0.5, 0.8).normalized());
+    for (Vec3& x : mesh.positions) x = turn * x;
+    const Polished p = polish(mesh, {.boundary = BoundaryRule::free}, {.goal = PolishGoal::mean});
+    for (const Vec3& x : p.polished.positions) EXPECT_NEAR((turn.inverse() * x).z(), 0, 1e-13);
+  }
 }
 
 TEST(Polish, KeepsBordersRidgesAndTheSurface) {

@@ -77,6 +77,20 @@ TEST(Run, ASliverThatCannotGetBetterDoesNotEndIt) {
   EXPECT_NEAR(converge(flawed), converge(clean), 0.02 * static_cast<double>(clean.triangle_count()));
 }
 
+TEST(Run, AHugeGradientAtTheStartDoesNotEndItEither) {
+  // A square that is crowded towards one corner.
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 3, .triangles = 600});
+  for (Vec3& x : mesh.positions)
+    for (double* const c : {&x.x(), &x.y()}) *c = std::pow(*c, 4);
+  const auto energy_with = [&](Solver solver) {
+    TriangleMesh copy = mesh;
+    const SmoothingProblem problem = make_problem(copy.positions, copy.triangles, {});
+    return run(*make_smoother(problem, solver), problem, copy.positions, {.iterations = 3000}).after.energy;
+  };
+  const double least = energy_with(Solver::automatic);
+  EXPECT_LT(energy_with(Solver::lbfgs), 1.01 * least);
+}
+
 TEST(Run, SaysThatNothingMayMove) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
