@@ -29,7 +29,7 @@ std::vector<Index> flat_patches(const Topology& topology, std::span<const double
   return patches;
 }
 
-std::vector<std::uint8_t> meshed_patches(const Topology& topology, std::span<const Index> patches) {
+std::vector<double> inner_shares(const Topology& topology, std::span<const Index> patches) {
   std::vector<Index> inside(patches.size(), 0), on_rim(patches.size(), 0);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     const auto corners = topology.corners_of(v);
@@ -42,10 +42,10 @@ std::vector<std::uint8_t> meshed_patches(const Topology& topology, std::span<con
       if (first) ++(one ? inside : on_rim)[patch(i)];
     }
   }
-  std::vector<std::uint8_t> meshed(patches.size(), 0);
+  std::vector<double> shares(patches.size(), 0);
   for (Index t = 0; t < patches.size(); ++t)
-    meshed[t] = patches[t] != kNone && inside[patches[t]] >= on_rim[patches[t]] ? 1 : 0;
-  return meshed;
+    if (patches[t] != kNone) shares[t] = inside[patches[t]] / static_cast<double>(on_rim[patches[t]]);
+  return shares;
 }
 
 }  // namespace isorelax

@@ -13,9 +13,8 @@ namespace isorelax {
 [[nodiscard]] std::vector<Index> flat_patches(const Topology& topology, std::span<const double> turns_deg,
                                               std::span<const FeatureEdge> creases);
 
-/// Marks the triangles of those patches that have as many vertices inside as on their rims, or more: what
-/// was meshed for its own sake, and not only spanned between its corners.
-[[nodiscard]] std::vector<std::uint8_t> meshed_patches(const Topology& topology,
-                                                       std::span<const Index> patches);
+/// For each triangle how many vertices its patch has inside, over those on its rim; 0 where it is in none.
+/// What was only spanned between its corners has none inside.
+[[nodiscard]] std::vector<double> inner_shares(const Topology& topology, std::span<const Index> patches);
 
 }  // namespace isorelax

@@ -18,6 +18,10 @@ constexpr double kStraightDeg = 0.003;
 constexpr double kKinkDeg = 0.05;
 /// A meshed flat face ends in an edge that turns by more than this, not in an uneven triangle.
 constexpr double kRimDeg = 2;
+/// A flat face is meshed for its own sake with as many vertices inside as on its rim; beside another one,
+/// with so many for each on the rim.
+constexpr double kMeshed = 1;
+constexpr double kCoarselyMeshed = 0.25;
 
 /// Angle of a matrix eigenvalue ratio: a crease with dihedral turn phi between equal areas has l2 / l1 =
 /// tan^2(phi / 2).
@@ -97,13 +101,17 @@ class Classifier {
  private:
   void mark_crease(Corner c) { is_crease_[c] = is_crease_[topology_.opposite(c)] = 1; }
 
-  /// Where a meshed flat face ends in a turn, however gentle, somebody drew an edge.
+  /// Where a meshed flat face ends in a turn, however gentle, somebody drew an edge; where it meets another
+  /// one, coarser meshes will do.
   void add_rims() {
-    const std::vector<std::uint8_t> meshed = meshed_patches(topology_, flat_);
+    const std::vector<double> inner = inner_shares(topology_, flat_);
+    const auto are_meshed = [&](Index t, Index u) {
+      return std::max(inner[t], inner[u]) >= kMeshed || std::min(inner[t], inner[u]) >= kCoarselyMeshed;
+    };
     for (Corner c = 0; c < turns_.size(); ++c) {
       const Corner other = topology_.opposite(c);
       if (other == kNone || other < c || is_crease_[c] != 0 || turns_[c] <= kRimDeg) continue;
-      if (flat_[c / 3] == flat_[other / 3] || meshed[c / 3] + meshed[other / 3] == 0) continue;
+      if (flat_[c / 3] == flat_[other / 3] || !are_meshed(c / 3, other / 3)) continue;
       const Triangle& t = triangles_[c / 3];
       r_.creases.push_back({{t[next(c % 3)], t[previous(c % 3)]}, c});
       mark_crease(c);

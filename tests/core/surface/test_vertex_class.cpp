@@ -67,6 +67,7 @@ std::size_t count_ridge(const TriangleMesh& mesh, const FeatureOptions& options 
 TEST(VertexClasses, MeshedFlatFacesEndInRidgesHoweverGentle) {
   EXPECT_EQ(count_ridge(roof(12, 10)), 11U);
   EXPECT_EQ(count_ridge(roof(12, 1)), 0U) << "an uneven triangle turns as far";
+  EXPECT_EQ(count_ridge(roof(6, 10)), 5U) << "twice as many vertices on their rims as inside";
   EXPECT_EQ(count_ridge(roof(2, 10)), 0U) << "spanned between its corners";
   EXPECT_EQ(count_ridge(roof(12, 10), FeatureOptions::none()), 0U);
   EXPECT_EQ(count_ridge(roof(12, 1), {.ridge_angle_deg = 0.5}), 11U) << "a crease by its own threshold";
