@@ -111,9 +111,8 @@ Index TurnLimit::over_fold(std::span<const Vec3> x, Index triangle, unsigned cor
 }
 
 bool TurnLimit::turns_back(Index triangle, const Folds& folds) const {
-  for (unsigned kind = 0; kind < 2; ++kind)
-    if (folds.all[kind] >= needed_[triangle] && folds.fresh[kind] > 0) return true;
-  return false;
+  if (needed_[triangle] == kNever) return false;
+  return folds.fresh[1] > 0 || (folds.fresh[0] > 0 && folds.all[0] >= needed_[triangle]);
 }
 
 }  // namespace isorelax

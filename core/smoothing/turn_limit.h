@@ -24,9 +24,10 @@ struct Folds {
 };
 
 /// How far the triangles of a curved surface may turn: none by more than 60 degrees from its normal at the
-/// start, and none back from its neighbours, with folds of one kind at two edges, or at its only one, of
-/// which one is fresh. Triangles that count as upside down have such folds, and so have patches of one or two
-/// that count as folded over (inverted.h, folded_patches.h), whose limits are 120 and 150 degrees.
+/// start, and none back from its neighbours, with a fresh fold of over 149 degrees, or with folds at two
+/// edges, or at its only one, of which one is fresh. Triangles that count as upside down have such folds, and
+/// so have patches of one or two that count as folded over (inverted.h, folded_patches.h), whose limits are
+/// 120 and 150 degrees. What had turned back at the start may do what it likes.
 class TurnLimit {
  public:
   /// Cosine of the largest turn of a triangle.
@@ -73,7 +74,7 @@ class TurnLimit {
   [[nodiscard]] Vec3 area_at(std::span<const Vec3> x, Index triangle) const;
 
   const SmoothingProblem& problem_;
-  std::vector<std::uint8_t> needed_;  // folds that a triangle has turned back with
+  std::vector<std::uint8_t> needed_;  // folds of either kind that a triangle has turned back with
   std::vector<double> folding_cosines_;
 };
 

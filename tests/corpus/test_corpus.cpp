@@ -10,6 +10,7 @@
 #include "quality/report.h"
 #include "smoothing/bounded_run.h"
 #include "smoothing/polish.h"
+#include "surface/feature_edges.h"
 
 // Smooths real meshes as `isorelax smooth IN -o OUT --iterations 100` does, and asks what anybody
 // who smooths a mesh would ask.
@@ -80,6 +81,20 @@ TEST_P(Corpus, NoTriangleIsNewlyInverted) {
   const auto after = inverted_triangles(s.after.positions, s.after.triangles, s.problem.topology);
   EXPECT_LE(after.size(), before.size());
   EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+}
+
+TEST_P(Corpus, NoEdgeFoldsThatDidNot) {
+  const Smoothed& s = smoothed();
+  std::size_t folded = 0;
+  for (Corner c = 0; c < 3 * s.before.triangles.size(); ++c) {
+    const Corner across = s.problem.topology.opposite(c);
+    if (across == kNone || across < c) continue;
+    const auto turn = [&](const TriangleMesh& m) {
+      return dihedral_turn_deg(m.positions, m.triangles, s.problem.topology, c);
+    };
+    if (turn(s.before) < 150 && turn(s.after) > 150) ++folded;
+  }
+  EXPECT_EQ(folded, 0U);
 }
 
 TEST_P(Corpus, NoTriangleTurnsItsBack) {

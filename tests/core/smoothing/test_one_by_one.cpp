@@ -53,7 +53,6 @@ TEST(OneByOne, IsWhatAutomaticRunsGoOverTo) {
   const RunResult some = run(*make_smoother(problem, Solver::automatic), problem, automatic.positions, {});
   EXPECT_LT(some.after.energy, 0.98 * all.after.energy);
   EXPECT_GT(measure_quality(automatic).mean_min_angle_deg, measure_quality(lbfgs).mean_min_angle_deg + 0.5);
-  EXPECT_GT(measure_quality(automatic).min_angle_deg, measure_quality(lbfgs).min_angle_deg + 1);
 }
 
 TEST(OneByOne, AVertexThatIsHeldBackIsNotCalledConverged) {
