@@ -93,7 +93,7 @@ std::string paper_text(const std::vector<PaperRow>& rows, const PaperTableOption
   text += block(rows, "Largest angle, degrees", &QualityReport::max_angle_deg, &PaperFigures::max_angle_deg);
   text += block(rows, "Mean of the triangles' smallest angles, degrees (not in the paper)",
                 &QualityReport::mean_min_angle_deg, nullptr);
-  text += "Rows, with the time of one thread for all six meshes (";
+  text += "Rows, with the time of their steps on one thread for all six meshes (";
   for (std::size_t i = 0; i < kPaperMeshes; ++i) {
     text += (i == 0 ? "" : ", ") + std::to_string(rows.front().meshes[i].triangle_count());
   }

@@ -1,7 +1,5 @@
 #include "cli/paper_table.h"
 
-#include <chrono>
-
 #include "generate/generate.h"
 #include "smoothing/baselines.h"
 #include "smoothing/polish.h"
@@ -82,6 +80,7 @@ Run polished(const ProblemOptions& options, const SmootherFactory& make, const R
     const RunResult last = isorelax::run(*make_polish(problem, polish), problem, mesh.positions,
                                          {.iterations = polish.iterations, .tolerance = kPolishTolerance});
     result.iterations += last.iterations;
+    result.seconds += last.seconds;
     return result;
   };
 }
@@ -149,9 +148,11 @@ std::vector<PaperRow> compute_paper_table(const PaperTableOptions& options,
                    static_cast<double>(methods.size() * kPaperMeshes),
                method.name);
       row.meshes[i] = paper_mesh(i, options);
-      const auto start = std::chrono::steady_clock::now();
-      if (method.run) row.iterations[i] = method.run(row.meshes[i]).iterations;
-      row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (method.run) {
+        const RunResult result = method.run(row.meshes[i]);
+        row.iterations[i] = result.iterations;
+        row.seconds += result.seconds;
+      }
       row.quality[i] = measure_quality(row.meshes[i], 1);
     }
     rows.push_back(std::move(row));

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/error.h"
 #include "quality/inverted.h"
 #include "smoothing/orientation_field.h"
@@ -26,10 +27,8 @@ std::vector<std::uint8_t> inner_vertices(const Topology& topology) {
 /// A fold looks like a crease: only what no inverted triangle touches is known to be one.
 void hold_features(std::vector<std::uint8_t>& movable, std::span<const Vec3> positions,
                    std::span<const Triangle> triangles, const Topology& topology,
-                   const ProblemOptions& options) {
+                   const ProblemOptions& options, const std::vector<Index>& inverted) {
   std::vector<std::uint8_t> folded(positions.size(), 0);
-  const auto inverted = inverted_triangles(positions, triangles, topology, options.threads);
-  if (inverted.empty()) return;
   for (const Index t : doubtful_triangles(inverted, positions, triangles, topology))
     for (const Index v : triangles[t]) folded[v] = 1;
   const VertexClasses classes =
@@ -39,41 +38,20 @@ void hold_features(std::vector<std::uint8_t>& movable, std::span<const Vec3> pos
   }
 }
 
-/// Numbers vertices that moved by the groups that they are in: two of one triangle are in one group.
-std::vector<Index> groups_of(std::span<const Index> moved, std::span<const Triangle> triangles,
-                             const Topology& topology) {
-  std::vector<Index> group(topology.vertex_count(), kNone);
-  std::vector<std::uint8_t> is_moved(topology.vertex_count(), 0);
-  for (const Index v : moved) is_moved[v] = 1;
-  Index count = 0;
-  for (const Index seed : moved) {
-    if (group[seed] != kNone) continue;
-    std::vector<Index> front{seed};
-    group[seed] = count;
-    while (!front.empty()) {
-      const Index v = front.back();
-      front.pop_back();
-      for (const Corner c : topology.corners_of(v))
-        for (const Index w : triangles[c / 3]) {
-          if (is_moved[w] == 0 || group[w] != kNone) continue;
-          group[w] = count;
-          front.push_back(w);
-        }
-    }
-    ++count;
-  }
-  return group;
-}
-
-/// Takes back groups of moves that led away from the surface or turned nothing over.
+/// Takes back groups of moves, of vertices that hang together, that led away from the surface or turned
+/// nothing over.
 void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<const Triangle> triangles,
                    const Topology& topology, UntangleResult& result, unsigned threads) {
   struct Group {
     double distance = 0, longest_edge = 0;
     bool turns = false;
   };
-  const std::vector<Index> group_of = groups_of(result.moved, triangles, topology);
-  std::vector<Group> groups(result.moved.size());
+  DisjointSets sets(topology.vertex_count());
+  const auto is_moved = [&](Index v) { return x[v] != input[v]; };
+  for (const Triangle& t : triangles)
+    for (unsigned k = 0; k < 3; ++k)
+      if (is_moved(t[k]) && is_moved(t[next(k)])) sets.join(t[k], t[next(k)]);
+  std::vector<Group> groups(topology.vertex_count());
   const auto [there, back] =
       measure_both_ways({x, triangles, topology}, {input, triangles, topology}, threads);
   const auto area = [](std::span<const Vec3> at, const Triangle& t) {
@@ -83,8 +61,8 @@ void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<con
     const Triangle& corners = triangles[t];
     const bool is_turned = area(input, corners).dot(area(x, corners)) < 0;
     for (const Index v : corners) {
-      if (group_of[v] == kNone) continue;
-      Group& group = groups[group_of[v]];
+      if (!is_moved(v)) continue;
+      Group& group = groups[sets.find(v)];
       group.distance =
           std::max({group.distance, there.by_triangle[t].distance, back.by_triangle[t].distance});
       for (unsigned k = 0; k < 3; ++k)
@@ -94,7 +72,7 @@ void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<con
     }
   }
   std::erase_if(result.moved, [&](Index v) {
-    const Group& group = groups[group_of[v]];
+    const Group& group = groups[sets.find(v)];
     const bool stays = group.turns && group.distance <= kNearShare * group.longest_edge;
     if (!stays) x[v] = input[v];
     return !stays;
@@ -111,15 +89,17 @@ UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangl
                               const ProblemOptions& options) {
   if (options.untangle == UntangleRule::off) return {};
   const Topology topology(triangles, static_cast<Index>(positions.size()));
+  const auto inverted = inverted_triangles(positions, triangles, topology, options.threads);
+  if (inverted.empty()) return {};
   std::vector<std::uint8_t> movable = inner_vertices(topology);
   for (const Index v : options.pinned) {
     if (v < movable.size()) movable[v] = 0;
   }
   const bool planar = plane_normal(positions, triangles, topology, options.threads).has_value();
-  if (!planar) hold_features(movable, positions, triangles, topology, options);
+  if (!planar) hold_features(movable, positions, triangles, topology, options, inverted);
   const std::vector<Vec3> input(positions.begin(), positions.end());
   UntangleResult result = untangle(positions, triangles, topology, movable, options.threads);
-  const bool few = !planar && kOnePerTriangles * result.before < triangles.size();
+  const bool few = !planar && kOnePerTriangles * inverted.size() < triangles.size();
   if (few && !result.moved.empty())
     take_back_far(positions, input, triangles, topology, result, options.threads);
   return result;
