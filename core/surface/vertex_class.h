@@ -68,16 +68,16 @@ struct VertexClasses {
 
 /// Classifies every vertex (paper Sec. 3, method Sec. 4). A vertex in no triangle is a corner.
 ///
-/// Creases are those of find_creases, and the rims of meshed flat faces (inner_shares: as many vertices inside
-/// as on the rim, or, where two of them meet, a quarter) that turn by more than 2 degrees, unless nothing is
-/// to be a ridge. Boundary vertices are `boundary`, or `corner` where the
-/// border turns by more than boundary_turn_deg, where a straight stretch of it ends in a turn however small
-/// (so that straight outlines are kept), where a crease runs into it, or where several borders meet.
-/// Elsewhere: a corner where the angles miss 2 pi by corner_defect_deg (or exceed it, on a crease), where one
-/// crease ends, where three or more meet, or where the line of two turns by more than turn_deg, both between
-/// the neighbours on it and between theirs: a line that only follows the zigzag of its edges has no corner;
-/// or where it comes to a flat face or leaves one (flat_patches), whose rim would slide along with it. A
-/// ridge where two creases meet; else smooth.
+/// Creases are those of find_creases, and the rims of meshed flat faces (inner_shares: as many vertices
+/// inside as on the rim, or, where two of them meet, a quarter) that turn by more than 2 degrees, unless
+/// nothing is to be a ridge. Boundary vertices are `boundary`, or `corner` where the border turns by more
+/// than boundary_turn_deg, where a straight stretch of it ends in a turn however small (so that straight
+/// outlines are kept), where a crease runs into it, or where several borders meet. Elsewhere: a corner where
+/// the angles miss 2 pi by corner_defect_deg (or exceed it, on a crease), where one crease ends, where three
+/// or more meet, or where the line of two turns by more than turn_deg, both between the neighbours on it and
+/// between theirs: a line that only follows the zigzag of its edges has no corner; or where it comes to a
+/// flat face or leaves one (flat_patches), whose rim would slide along with it. A ridge where two creases
+/// meet; else smooth.
 VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const FeatureOptions& options,
                                 unsigned threads = 0);
