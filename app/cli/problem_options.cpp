@@ -86,8 +86,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--surface", spec.surface,
                  "project (default): slide on the surface as it was; tangent: move in tangent planes only")
       ->type_name("RULE");
-  app.add_option("--untangle", spec.untangle,
-                 "auto (default): turn triangles that lie upside down before smoothing; off: leave them")
+  app.add_option(
+         "--untangle", spec.untangle,
+         "auto (default): turn triangles that lie upside down before smoothing, just a few of a surface "
+         "only where that hardly changes it; off: leave them")
       ->type_name("RULE");
   app.add_option("--pin", spec.pins,
                  "Vertices that must not move: boundary, feature, box:X0,Y0,Z0:X1,Y1,Z1 (two corners), "
