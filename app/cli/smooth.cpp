@@ -173,7 +173,7 @@ class SmoothCommand : public Command {
       return "without a guard " + std::to_string(outcome.turned_over.size()) +
              " triangles were turned over, the first " + std::to_string(outcome.turned_over.front());
     }
-    if (run_.limit().max && outcome.deviation.max > std::max(*run_.limit().max, kDeviationRounding)) {
+    if (run_.limit().max && is_over_limit(outcome.deviation.max, *run_.limit().max)) {
       return "without a guard the surface went " + number_text(outcome.deviation.max) +
              " from the input, farther than --max-deviation allows";
     }

@@ -100,7 +100,8 @@ void compare_moved(const TriangleMesh& a, const TriangleMesh& b, double diagonal
                              moves.max / diagonal, limits.displacement, false,
                              moves.max / diagonal <= limits.displacement});
   result.verdicts.push_back({"max-deviation", "largest distance between the surfaces, of the diagonal",
-                             deviation.max, limits.deviation, false, deviation.max <= limits.deviation});
+                             deviation.max, limits.deviation, false,
+                             !is_over_limit(deviation.max, limits.deviation)});
 }
 
 void compare_surfaces(const TriangleMesh& a, const TriangleMesh& b, double diagonal, const MeshLimits& limits,

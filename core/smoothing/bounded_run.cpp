@@ -290,8 +290,8 @@ UntangledStart untangle_start(std::span<Vec3> positions, std::span<const Triangl
   start.notes = note_of(result);
   if (result.moved.empty() || !limit.max) return start;
   const Topology topology(triangles, static_cast<Index>(positions.size()));
-  if (measure_deviation(input, positions, triangles, topology, options.threads).max <= *limit.max)
-    return start;
+  const Deviation deviation = measure_deviation(input, positions, triangles, topology, options.threads);
+  if (!is_over_limit(deviation.max, *limit.max)) return start;
   std::copy(input.begin(), input.end(), positions.begin());
   start.notes = {"untangling would leave the input surface by more than the limit: not done"};
   result = {result.before, result.before, {}};

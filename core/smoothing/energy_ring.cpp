@@ -6,6 +6,7 @@ namespace isorelax {
 namespace {
 
 constexpr unsigned kMaxSteps = 8;
+/// A needle on a short edge bends so much that a whole step leads far too far.
 constexpr unsigned kBlockHalvings = 24;
 /// A step that gains less than this share of the sum is the last.
 constexpr double kWorthwhileBlockGain = 0.03;

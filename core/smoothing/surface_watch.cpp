@@ -86,7 +86,7 @@ SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions, double
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
                                                                       problem_.topology, problem_.threads);
   found.deviation = deviation.whole;
-  if (deviation.whole.max > std::max(limit, kDeviationRounding))
+  if (is_over_limit(deviation.whole.max, limit))
     found.far = vertices_over(deviation, problem_.triangles, kNearLimit * limit);
   return found;
 }
@@ -125,26 +125,17 @@ bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const 
 
 /// Whether the border only moved along its straight stretches, whose ends stayed.
 bool SurfaceWatch::keeps_border(std::span<const Vec3> after, double rounding) const {
-  struct Neighbours {
-    Index before = kNone, behind = kNone;
-  };
-  std::vector<Neighbours> border(start_.size());
-  for (Corner c = 0; c < 3 * problem_.triangle_count(); ++c) {
-    if (!problem_.topology.is_boundary_edge(c)) continue;
-    const Triangle& t = problem_.triangles[c / 3];
-    const Index from = t[next(c % 3)], to = t[previous(c % 3)];
-    if (border[from].behind != kNone || border[to].before != kNone) return false;
-    border[from].behind = to;
-    border[to].before = from;
-  }
-  const auto goes_straight_at = [&](Index v, std::span<const Vec3> x) {
-    const Vec3 in = x[v] - x[border[v].before], out = x[border[v].behind] - x[v];
+  const auto goes_straight_between = [&](std::span<const Vec3> x, Index before, Index v, Index behind) {
+    const Vec3 in = x[v] - x[before], out = x[behind] - x[v];
     return in.dot(out) > 0 && in.cross(out).norm() <= rounding * (in + out).norm();
   };
   for (Index v = 0; v < start_.size(); ++v) {
     if (start_[v] == after[v] || !problem_.topology.is_boundary(v)) continue;
-    if (border[v].before == kNone || border[v].behind == kNone) return false;
-    if (!goes_straight_at(v, start_) || !goes_straight_at(v, after)) return false;
+    const auto slides = problem_.border.find(v);
+    if (slides == problem_.border.end()) return false;
+    const auto& [before, behind] = slides->second;
+    if (!goes_straight_between(start_, before, v, behind) || !goes_straight_between(after, before, v, behind))
+      return false;
   }
   return true;
 }

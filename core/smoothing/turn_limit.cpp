@@ -76,14 +76,15 @@ Folds TurnLimit::fold_between(Index t, const Vec3& area_of_t, Index u, const Vec
   if (!(along < 0)) return folds;
   const double squares = area_of_t.squaredNorm() * area_of_u.squaredNorm();
   const auto is_over = [&](double cosine) { return along * along > cosine * cosine * squares; };
-  for (unsigned i = 0; i < kKinds.size() && is_over(kKinds[i].allowed); ++i) {
-    folds.all[i] = 1;
-    const double at_start = cosine_at_start(t, u);
-    // Between what is allowed and what counts as a fold it may stay.
-    const bool turned_less =
-        at_start > kKinds[i].cosine && is_over(std::min(kKinds[i].allowed, at_start) - kRounding);
-    folds.fresh[i] = turned_less ? 1 : 0;
-  }
+  if (!is_over(kKinds[0].allowed)) return folds;
+  const double at_start = cosine_at_start(t, u);
+  // Between what is allowed and what counts as a fold it may stay.
+  const auto is_fresh = [&](const Kind& kind) {
+    return at_start > kind.cosine && is_over(std::min(kind.allowed, at_start) - kRounding);
+  };
+  folds.all = 1;
+  folds.fresh = is_fresh(kKinds[0]) ? 1 : 0;
+  folds.fresh_sharp = is_fresh(kKinds[1]) ? 1 : 0;
   return folds;
 }
 
@@ -112,7 +113,7 @@ Index TurnLimit::over_fold(std::span<const Vec3> x, Index triangle, unsigned cor
 
 bool TurnLimit::turns_back(Index triangle, const Folds& folds) const {
   if (needed_[triangle] == kNever) return false;
-  return folds.fresh[1] > 0 || (folds.fresh[0] > 0 && folds.all[0] >= needed_[triangle]);
+  return folds.fresh_sharp > 0 || (folds.fresh > 0 && folds.all >= needed_[triangle]);
 }
 
 }  // namespace isorelax

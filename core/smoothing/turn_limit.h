@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -8,19 +7,18 @@
 
 namespace isorelax {
 
-/// Edges across which the surface turns so far that they count as folds: by more than 119 degrees, and by
-/// more than 149. Fresh are those that turned by less than 120, or 150, at the start.
+/// Edges across which the surface turns so far that they count as folds: by more than 119 degrees; sharp are
+/// those by more than 149. Fresh are those that turned by less than 120, or 150, at the start.
 struct Folds {
-  std::array<std::uint8_t, 2> all{}, fresh{};
+  std::uint8_t all = 0, fresh = 0, fresh_sharp = 0;
 
   Folds& operator+=(const Folds& other) {
-    for (unsigned kind = 0; kind < 2; ++kind) {
-      all[kind] += other.all[kind];
-      fresh[kind] += other.fresh[kind];
-    }
+    all += other.all;
+    fresh += other.fresh;
+    fresh_sharp += other.fresh_sharp;
     return *this;
   }
-  [[nodiscard]] bool any() const { return all[0] > 0; }
+  [[nodiscard]] bool any() const { return all > 0; }
 };
 
 /// How far the triangles of a curved surface may turn: none by more than 60 degrees from its normal at the

@@ -10,9 +10,6 @@ namespace isorelax {
 /// Length of the diagonal of the positions' bounding box; 0 of none.
 [[nodiscard]] double bounding_diagonal(std::span<const Vec3> positions);
 
-/// A deviation up to this may be rounding: that of a surface from itself is not always 0.
-inline constexpr double kDeviationRounding = 1e-14;
-
 /// How far a surface whose vertices moved is from what it was.
 struct Deviation {
   double max = 0;  ///< largest distance between the two surfaces, over the original's bounding-box diagonal
@@ -26,6 +23,13 @@ struct Deviation {
   double max_to_original = 0;  ///< largest distance from a point of the new surface to the original, relative
   double max_to_new = 0;       ///< and from a point of the original to the new one
 };
+
+/// Whether a largest distance is over a limit, both over the diagonal, by more than rounding: the distance of
+/// a surface from itself is not always 0.
+[[nodiscard]] constexpr bool is_over_limit(double max, double limit) {
+  constexpr double kRounding = 1e-14;
+  return max > limit && max > kRounding;
+}
 
 /// Measures both ways, from the new surface to the original and from the original to the new one, each by an
 /// exact closest-point search (method Sec. 9).

@@ -23,6 +23,22 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
     EXPECT_EQ(run_program(smooth + " --max-deviation " + limit).status, 0) << limit;
 }
 
+TEST(SmoothCommand, RefusesOptionsWithoutEffect) {
+  const Workspace workspace;
+  const std::string smooth =
+      "smooth " + workspace.write("t.off", kTriangle) + " -o " + workspace.path("o.off");
+  for (const char* options :
+       {" --every 2", " --view iso", " --polish-mean-loss 1", " --polish mean --polish-mean-loss 1",
+        " --polish worst --polish-worst-share 0.2", " --relaxation 0.5",
+        " --solver newton --relaxation 0.5"}) {
+    const Outcome outcome = run_program(smooth + options);
+    EXPECT_EQ(outcome.status, 2) << options;
+    expect_one_error_line(outcome);
+  }
+  EXPECT_EQ(run_program(smooth + " --solver jacobi --relaxation 0.5").status, 0);
+  EXPECT_EQ(run_program(smooth + " --polish both --polish-mean-loss 1 --polish-worst-share 0.2").status, 0);
+}
+
 TEST(SmoothCommand, WritesNothingWhenAnUnguardedMethodTurnedTrianglesOver) {
   const Workspace workspace;
   // An arrow whose corners have their mean beyond its notch.
