@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "quality/triangle_metrics.h"
 #include "render/offscreen.h"
@@ -11,20 +12,39 @@
 
 namespace isorelax::cli {
 
+namespace {
+
+/// Directions spread evenly over the sphere (a Fibonacci spiral): a smooth outline is met to 2 % of its
+/// radius, less than the margin that pictures leave.
+std::vector<Vec3> many_directions() {
+  constexpr int kCount = 100;
+  std::vector<Vec3> directions(kCount);
+  for (int i = 0; i < kCount; ++i) {
+    const double z = (2 * i + 1) / static_cast<double>(kCount) - 1;
+    const double around = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
+    const double radius = std::sqrt(1 - z * z);
+    directions[static_cast<std::size_t>(i)] = {radius * std::cos(around), radius * std::sin(around), z};
+  }
+  return directions;
+}
+
+}  // namespace
+
 void MotionPictures::look_at(const TriangleMesh& mesh) {
   std::vector<double> areas = face_metric(FaceMetric::area, mesh.positions, mesh.triangles);
   if (mean_area_ == 0) {
     for (const double area : areas) mean_area_ += area / static_cast<double>(areas.size());
-    box_ = {mesh.positions[0], mesh.positions[0]};
   }
   // The extremes of a few slivers would leave nothing for the others: 0.5 % at each end may lie outside.
   std::ranges::sort(areas);
   const std::size_t rim = areas.size() / 200;
   low_ = std::min(low_, areas[rim] / mean_area_);
   high_ = std::max(high_, areas[areas.size() - 1 - rim] / mean_area_);
-  for (const Vec3& x : mesh.positions) {
-    box_[0] = box_[0].cwiseMin(x);
-    box_[1] = box_[1].cwiseMax(x);
+  static const std::vector<Vec3> directions = many_directions();
+  if (farthest_.empty()) farthest_.assign(directions.size(), mesh.positions[0]);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (const Vec3& x : mesh.positions)
+      if (x.dot(directions[i]) > farthest_[i].dot(directions[i])) farthest_[i] = x;
   }
 }
 
@@ -52,7 +72,7 @@ render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& 
   const render::FitOptions fitting{.right = render::legend_share(depiction.scene, view.size)};
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
   render::Renderer renderer(context->loader());
-  renderer.draw(depiction.scene, render::parse_camera(camera_, box_, view.size, fitting), view.size);
+  renderer.draw(depiction.scene, render::parse_camera(camera_, farthest_, view.size, fitting), view.size);
   return renderer.read_back();
 }
 

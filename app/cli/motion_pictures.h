@@ -27,7 +27,8 @@ class MotionPictures {
   int width_, height_;
   double mean_area_ = 0;
   double low_ = 1, high_ = 1;
-  std::vector<Vec3> box_;
+  /// What the camera must see: the farthest point of all meshes in each of many directions.
+  std::vector<Vec3> farthest_;
 };
 
 /// Pictures in rows of `columns`, all of one size.

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/program.h"
+#include "cli/motion_pictures.h"
+#include "generate/generate.h"
 
 namespace isorelax::test {
 namespace {
@@ -34,6 +36,28 @@ TEST(AdvectCommand, WritesAStartAnIndexALogAndStates) {
   // What the log says is what the state shows to others.
   const Outcome quality = run_program("quality --json " + folder + "/state_000004.ply");
   EXPECT_EQ(Json::parse(quality.out)["min_angle_deg"], log[4]["min_angle_deg"]);
+}
+
+TEST(AdvectCommand, PicturesShowAllOfTheSurface) {
+  cli::MotionPictures pictures("fit", 300, 260);
+  TriangleMesh first = generate(ShapeKind::sphere, {.vertices = 400}), last = first;
+  for (Vec3& x : first.positions) x = 0.15 * x + Vec3(0.35, 0.35, 0.35);
+  for (Vec3& x : last.positions) x = 0.3 * x + Vec3(1.2, 0.5, 0.4);
+  pictures.look_at(first);
+  pictures.look_at(last);
+  for (const TriangleMesh& mesh : {first, last}) {
+    const render::Image image = pictures.draw(mesh, "");
+    std::size_t drawn = 0;
+    for (int y = 0; y < 260; ++y)
+      for (int x = 0; x < 220; ++x) {  // the legend stands on the right
+        const auto pixel = image.at(x, y);
+        const bool white = pixel[0] == 255 && pixel[1] == 255 && pixel[2] == 255;
+        drawn += white ? 0 : 1;
+        const bool edge = x == 0 || y == 0 || y == 259;
+        EXPECT_TRUE(white || !edge) << x << " " << y;
+      }
+    EXPECT_GT(drawn, 1000U);
+  }
 }
 
 TEST(AdvectCommand, AResumedRunLeavesTheFilesOfAStraightOne) {
