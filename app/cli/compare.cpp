@@ -7,10 +7,13 @@
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
+#include "cli/output_files.h"
 #include "cli/view_options.h"
 #include "compare/mesh_case.h"
+#include "compare/trace_case.h"
 #include "io/atomic_file.h"
 #include "mesh/error.h"
+#include "trace/trace_file.h"
 
 namespace isorelax::cli {
 namespace {
@@ -65,7 +68,7 @@ class CompareCommand : public Command {
  public:
   [[nodiscard]] std::string name() const override { return "compare"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell whether two pictures, two folders of pictures or two meshes are the same";
+    return "Tell whether two pictures, folders of pictures, meshes or recorded runs are the same";
   }
   [[nodiscard]] std::string notes() const override {
     return "Pictures (PNG) pass when every limit holds: a mean alone lets a missing label through, a "
@@ -91,6 +94,12 @@ class CompareCommand : public Command {
            "render\n"
            "and matter for the page only.\n"
            "\n"
+           "Recorded runs (smooth --trace): what they were told differently, the first iteration and vertex "
+           "at "
+           "which they\n"
+           "part, and how far apart they end, against --max-displacement. trace diff asks for the same "
+           "bits.\n"
+           "\n"
            "Exit status: 0 everything passes; 1 something does not; 2 it cannot be compared (other sizes); 3 "
            "a file\n"
            "cannot be read.\n"
@@ -100,11 +109,12 @@ class CompareCommand : public Command {
            "  isorelax compare baselines/ pictures/ --junit results.xml --report page.html --min-tile-ssim "
            "0.9\n"
            "  isorelax compare before.off after.off --report page.html --color angle --json\n"
-           "  isorelax compare scan.ply remeshed.off --max-deviation 0.001";
+           "  isorelax compare scan.ply remeshed.off --max-deviation 0.001\n"
+           "  isorelax compare first.trace second.trace --json";
   }
   void declare(CLI::App& app) override {
-    app.add_option("A", a_, "Picture, folder or mesh: what is expected")->required();
-    app.add_option("B", b_, "Picture, folder or mesh: what is there")->required();
+    app.add_option("A", a_, "Picture, folder, mesh or recorded run: what is expected")->required();
+    app.add_option("B", b_, "Picture, folder, mesh or recorded run: what is there")->required();
     app.add_option("--report", page_, "Write one self-contained page with pictures and figures")
         ->type_name("FILE.html");
     app.add_flag("--json", json_, "Print the figures as JSON");
@@ -117,7 +127,8 @@ class CompareCommand : public Command {
     limit(app, "max-flip", image_.flip_mean, "Mean perceptual difference (default 0.005)");
     limit(app, "max-flip-p99", image_.flip_p99,
           "99th percentile of the perceptual difference (default 0.05)");
-    limit(app, "max-displacement", mesh_.displacement, "Meshes: displacement of a vertex (default 1e-9)");
+    limit(app, "max-displacement", mesh_.displacement,
+          "Meshes, runs: displacement of a vertex (default 1e-9)");
     limit(app, "max-deviation", mesh_.deviation, "Meshes: distance between the surfaces (default 1e-9)");
     app.add_option_function<std::vector<std::string>>(
            "--threshold",
@@ -135,8 +146,7 @@ class CompareCommand : public Command {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
     image_.tolerance = static_cast<int>(std::clamp(image_tolerance_, 0.0, 255.0));
     image_.largest = static_cast<int>(std::clamp(image_largest_, 0.0, 255.0));
-    if (!page_.empty()) check_writable(page_);
-    if (!junit_.empty()) check_writable(junit_);
+    check_outputs({{{"--report", page_}, {"--junit", junit_}}}, {a_, b_});
     const std::vector<Case> cases = compare_files(console);
     if (!page_.empty()) write_file_atomically(page_, compare::html_page(a_ + " and " + b_, cases));
     if (!junit_.empty()) write_file_atomically(junit_, compare::junit_xml(cases));
@@ -153,7 +163,9 @@ class CompareCommand : public Command {
   }
 
   void set_limit(const std::string& name, double value) {
-    if (std::isnan(value) || value < -1) throw UsageError("--" + name + ": is no limit");
+    const bool least = name.starts_with("min-");
+    if (std::isnan(value) || value < (least ? -1 : 0) || (least && value > 1))
+      throw UsageError("--" + name + ": expected a number " + (least ? "from -1 to 1" : "of 0 or more"));
     for (const auto& [known, target] : limits_)
       if (known == name) {
         *target = value;
@@ -177,6 +189,9 @@ class CompareCommand : public Command {
     if (folders[0]) return compare::compare_folders(a_, b_, image_, detail);
     if (is_picture(a_) != is_picture(b_)) throw UsageError("a picture can only be compared with a picture");
     if (is_picture(a_)) return {compare::compare_picture_files(a_, b_, image_, detail)};
+    const bool runs[] = {is_trace(a_), is_trace(b_)};
+    if (runs[0] != runs[1]) throw UsageError("a recorded run can only be compared with a recorded run");
+    if (runs[0]) return {compare::compare_trace_files(a_, b_, mesh_.displacement)};
     const TriangleMesh mesh_a = read_input(console, a_);
     const TriangleMesh mesh_b = read_input(console, b_);
     const compare::NamedMesh a{a_, &mesh_a};

@@ -9,6 +9,7 @@
 #include "model/trace_jobs.h"
 #include "smoothing/polish.h"
 #include "smoothing/surface_watch.h"
+#include "trace/trace_file.h"
 #include "trace/trace_parts.h"
 
 namespace isorelax::model {

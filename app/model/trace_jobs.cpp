@@ -116,13 +116,6 @@ ReadAs understand(const Workbench& bench, Trace& trace, TraceOpened& opened) {
 
 }  // namespace
 
-bool is_trace(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, kTraceMagic.size()> letters{};
-  file.read(letters.data(), letters.size());
-  return file && std::string_view(letters.data(), letters.size()) == kTraceMagic;
-}
-
 void walk(const Path& path, const std::function<void(const std::vector<Vec3>&)>& visit) {
   bool started = false;
   for (const Place& segment : path) {

@@ -24,7 +24,4 @@ void walk(const Path& path, const std::function<void(const std::vector<Vec3>&)>&
 /// document's timeline.
 [[nodiscard]] Engine::Job open_trace_job(std::filesystem::path path, DocumentPtr document);
 
-/// Whether a file begins as traces do.
-[[nodiscard]] bool is_trace(const std::filesystem::path& path);
-
 }  // namespace isorelax::model

@@ -59,7 +59,8 @@ std::optional<TraceParting> find_parting(std::span<const Vec3> first, std::span<
 TraceDifference compare_traces(const Trace& first, const Trace& second) {
   TraceDifference found;
   const auto setting = [&](const char* name, const std::string& a, const std::string& b) {
-    if (a != b) found.settings.push_back({name, a, b});
+    const auto said = [](const std::string& text) { return text.empty() ? "none" : text; };
+    if (a != b) found.settings.push_back({name, said(a), said(b)});
   };
   setting("program", first.program, second.program);
   setting("input", first.input, second.input);

@@ -43,6 +43,9 @@ void write_trace(const std::filesystem::path& path, const Trace& trace);
 /// for anything that is foreign, of another version, damaged or missing.
 [[nodiscard]] Trace parse_trace(std::string_view bytes, const std::string& name);
 
+/// Whether a file begins as traces do; one that cannot be read does not.
+[[nodiscard]] bool is_trace(const std::filesystem::path& path);
+
 /// Throws InputError.
 [[nodiscard]] Trace read_trace(const std::filesystem::path& path);
 

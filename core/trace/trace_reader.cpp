@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -228,6 +230,13 @@ class Reader {
 
 Trace parse_trace(std::string_view bytes, const std::string& name) {
   return Reader(bytes, name).read();
+}
+
+bool is_trace(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, kTraceMagic.size()> letters{};
+  file.read(letters.data(), letters.size());
+  return file && std::string_view(letters.data(), letters.size()) == kTraceMagic;
 }
 
 Trace read_trace(const std::filesystem::path& path) {

@@ -293,6 +293,23 @@ TEST(TraceCommand, ShowsExportsComparesAndReplaysARun) {
   EXPECT_EQ(differs.status, 1);
   EXPECT_EQ(Json::parse(differs.out)["common_iterations"], 5);
   EXPECT_TRUE(Json::parse(differs.out)["parting"].is_null());
+  // So does compare, with a limit and a page.
+  EXPECT_EQ(run_program("compare " + trace + " " + trace).status, 0);
+  const std::string page = workspace.path("page.html");
+  const Outcome shorter =
+      run_program("compare --json " + trace + " " + workspace.path("short.trace") + " --report " + page);
+  EXPECT_EQ(shorter.status, 1);
+  EXPECT_EQ(Json::parse(shorter.out)["common_iterations"], 5);
+  EXPECT_NE(contents(page).find("12"), std::string::npos);
+  EXPECT_EQ(run_program("compare " + trace + " " + in).status, 2);
+  ASSERT_EQ(run_program("smooth " + in + " --quiet -o " + workspace.path("o3.off") +
+                        " --mu 0.5 --iterations 12 --trace " + workspace.path("other.trace"))
+                .status,
+            0);
+  const std::string parted = "compare " + trace + " " + workspace.path("other.trace");
+  EXPECT_EQ(run_program(parted).status, 1);
+  EXPECT_NE(run_program(parted).out.find("part at iteration 2"), std::string::npos);
+  EXPECT_EQ(run_program(parted + " --max-displacement 1").status, 0);
 
   const std::string exported = "trace export " + trace + " --iterations every:5 ";
   EXPECT_EQ(run_program(exported + "--csv " + workspace.path("t.csv") + " --vtk " + workspace.path("v") +
