@@ -12,6 +12,7 @@
 #include "cli/motion_options.h"
 #include "cli/motion_pictures.h"
 #include "cli/motion_series.h"
+#include "cli/output_files.h"
 #include "cli/table.h"
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
@@ -106,7 +107,7 @@ class AdvectCommand : public Command {
     if (output_.empty() == resume_.empty()) throw UsageError("advect: give --output DIR or --resume STATE");
     if (!figure_.empty() && std::filesystem::path(figure_).extension() != ".png")
       throw UsageError(figure_ + ": pictures are PNG files, named .png");
-    if (!figure_.empty()) check_writable(figure_);
+    check_outputs({{{"--figure", figure_}}}, {input_, resume_});
     return resume_.empty() ? begin(console) : resume(console);
   }
 

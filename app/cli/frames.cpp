@@ -2,6 +2,8 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "cli/console.h"
@@ -16,6 +18,12 @@ namespace fs = std::filesystem;
 
 bool is_animation(const std::string& target) {
   return fs::path(target).extension() == ".png";
+}
+
+/// A name that means an animation, of a kind that is not written.
+bool is_other_picture(const std::string& target) {
+  constexpr std::array kKinds = {".gif", ".apng", ".jpg", ".jpeg", ".webp", ".mp4", ".webm", ".avi", ".mov"};
+  return std::ranges::find(kKinds, fs::path(target).extension().string()) != kKinds.end();
 }
 
 /// A view from a file, or the default one from a direction.
@@ -59,8 +67,13 @@ void Frames::declare(CLI::App& app) {
 
 void Frames::start(std::span<const Vec3> positions) {
   if (target_.empty()) return;
+  // A mistake in the camera is told now, not after the run.
+  if (const view::View view = view_from(view_); const auto* camera = std::get_if<std::string>(&view.camera))
+    (void)render::parse_camera(*camera, positions, view.size);
   if (is_animation(target_)) {
     check_writable(target_);
+  } else if (is_other_picture(target_)) {
+    throw UsageError("--frames " + target_ + ": an animation is a .png; anything else is a folder");
   } else {
     make_folder(target_);
     check_writable(fs::path(target_) / numbered(0));

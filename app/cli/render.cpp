@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/output_files.h"
 #include "cli/view_options.h"
 #include "io/atomic_file.h"
 #include "mesh/error.h"
@@ -76,7 +77,11 @@ class RenderCommand : public Command {
       throw UsageError(output_ + ": pictures are PNG files, named .png");
     if (!files_.empty()) view.meshes = named_like(files_, view.meshes);
     if (view.meshes.empty()) throw UsageError("there is no mesh to draw: give its file");
-    const std::vector<TriangleMesh> meshes = read_meshes(console, view);
+    std::vector<std::string> read = mesh_files(view);
+    if (!view.against.empty()) read.push_back(find_file(view.against, options_.source()));
+    check_outputs({{{"--output", output_}, {"--save-view", view_file_}}}, read);
+    std::vector<TriangleMesh> meshes;
+    for (const std::string& file : mesh_files(view)) meshes.push_back(read_input(console, file));
     std::optional<TriangleMesh> against;
     if (!view.against.empty()) against = read_input(console, find_file(view.against, options_.source()));
     view::Exhibits exhibits;
@@ -92,12 +97,11 @@ class RenderCommand : public Command {
   }
 
  private:
-  std::vector<TriangleMesh> read_meshes(Console& console, const view::View& view) const {
-    std::vector<TriangleMesh> meshes;
-    for (std::size_t i = 0; i < view.meshes.size(); ++i)
-      meshes.push_back(
-          read_input(console, files_.empty() ? find_file(view.meshes[i], options_.source()) : files_[i]));
-    return meshes;
+  [[nodiscard]] std::vector<std::string> mesh_files(const view::View& view) const {
+    if (!files_.empty()) return files_;
+    std::vector<std::string> files;
+    for (const std::string& name : view.meshes) files.push_back(find_file(name, options_.source()));
+    return files;
   }
 
   std::vector<std::string> files_;

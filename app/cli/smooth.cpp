@@ -7,6 +7,7 @@
 #include "cli/frames.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
+#include "cli/output_files.h"
 #include "cli/smooth_run.h"
 #include "cli/table.h"
 #include "cli/watch.h"
@@ -30,7 +31,8 @@ Json outcome_to_json(const SmoothOutcome& outcome) {
   object["iterations"] = outcome.run.iterations;
   object["stopped"] = name_of(outcome.run.stopped);
   object["stopped_because"] = to_string(outcome.run.stopped);
-  object["seconds"] = outcome.run.seconds;
+  object["attempts"] = outcome.attempts;
+  object["seconds"] = outcome.seconds;
   object["energy_before"] = outcome.run.before.energy;
   const bool polished = outcome.polish && outcome.polish->iterations > 0;
   object["energy_after"] = (polished ? *outcome.polish : outcome.run).after.energy;
@@ -134,10 +136,7 @@ class SmoothCommand : public Command {
       throw UsageError(output_ + ": the extension names no format that is written: " + format_names());
     MeshFile file = read_input_file(console, input_);
     TriangleMesh& mesh = file.mesh;
-    // Before the long work, not after it.
-    check_writable(output_);
-    if (!report_.empty()) check_writable(report_);
-    if (!trace_.empty()) check_writable(trace_);
+    check_files();
     frames_.start(mesh.positions);
     const std::vector<Vec3> before = mesh.positions;
     const SmoothOutcome outcome = smooth(console, mesh);
@@ -159,14 +158,25 @@ class SmoothCommand : public Command {
                     (outcome.deviation.has_volume
                          ? ", volume change " + number_text(100 * outcome.deviation.volume_change) + " %"
                          : ""));
-    console.message("stopped after " + std::to_string(outcome.run.iterations) +
-                    " iterations: " + std::string(to_string(outcome.run.stopped)));
+    const std::string& predicate = watch_.broken_by();
+    console.message("stopped after " + std::to_string(outcome.run.iterations) + " iterations: " +
+                    (predicate.empty() ? std::string(to_string(outcome.run.stopped)) : predicate));
     if (outcome.polish)
       console.message("polished in " + std::to_string(outcome.polish->iterations) + " more");
     return kDone;
   }
 
  private:
+  /// Before the long work, not after it. The mesh may be written to where it came from.
+  void check_files() const {
+    std::vector<std::string> read;
+    for (const TraceResource& file : run_.resources()) read.push_back(file.path);
+    check_outputs({{{"--output", output_}}}, read);
+    read.push_back(input_);
+    check_outputs({{{"--report", report_}, {"--trace", trace_}}}, read);
+    check_outputs({{{"--output", output_}, {"--report", report_}, {"--trace", trace_}}}, {});
+  }
+
   /// Why the result of an unguarded run may not be written; a guarded one has no fault.
   [[nodiscard]] std::optional<std::string> fault_of(const SmoothOutcome& outcome) const {
     if (!outcome.turned_over.empty()) {
@@ -205,7 +215,10 @@ class SmoothCommand : public Command {
           if (!goes_on) recorder.trace().interrupted = true;
           return goes_on;
         },
-        [&](const RunPart& part, std::span<const Vec3> positions) { recorder.begin_part(part, positions); });
+        [&](const RunPart& part, std::span<const Vec3> positions) {
+          if (begins_again(part, recorder.trace())) watch_.begin_again(console);
+          recorder.begin_part(part, positions);
+        });
     watch_.finish(console, recorder.trace());
     if (!trace_.empty()) {
       const bool in_polish = outcome.polish && outcome.polish->stopped == StopReason::cancelled;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <string_view>
@@ -130,6 +131,10 @@ std::vector<TraceResource> SmoothRun::resources() const {
   return files;
 }
 
+bool begins_again(const RunPart& part, const Trace& trace) {
+  return part.done == 0 && !part.polish && !trace.iterations.empty();
+}
+
 SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, TriangleMesh& mesh,
                                 const StepObserver& observer, const PartObserver& part_observer) const {
   const Method method = parse_method(*app_, method_);
@@ -143,22 +148,29 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
   outcome.before = measure();
   try {
     Progress progress(console, "smoothing");
+    const auto start = std::chrono::steady_clock::now();
+    const auto begin_part = [&](const RunPart& part, std::span<const Vec3> positions) {
+      if (part.done == 0 && !part.polish) ++outcome.attempts;
+      if (part_observer) part_observer(part, positions);
+    };
     const auto show = [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {
       progress.update(static_cast<double>(iteration) / run_.iterations,
-                      "iteration " + std::to_string(iteration));
+                      "iteration " + std::to_string(iteration) +
+                          (outcome.attempts > 1 ? " of attempt " + std::to_string(outcome.attempts) : ""));
       return !observer || observer(iteration, record, positions);
     };
     if (method.guarded) {
       static_cast<BoundedResult&>(outcome) =
           run_bounded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, limit(), show,
-                      parse_polish(), part_observer);
+                      parse_polish(), begin_part);
     } else {
       RunPart only;
       only.exponent = options.exponent.value_or(kDefaultExponent);
-      if (part_observer) part_observer(only, mesh.positions);
+      begin_part(only, mesh.positions);
       static_cast<UnguardedResult&>(outcome) =
           run_unguarded(mesh.positions, mesh.triangles, options, method.make_smoother, run_, show);
     }
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   } catch (const MeshError& error) {  // gets the name of its file
     throw MeshError(input + ": " + error.what());
   }

@@ -21,7 +21,12 @@ class Console;
 /// What smoothing did, for the report and the summary.
 struct SmoothOutcome : UnguardedResult {
   QualityReport before, after;
+  unsigned attempts = 0;  ///< 1, and one for each time that the run was done again from the start
+  double seconds = 0;     ///< of all attempts, set-up and polish, without reading and writing
 };
+
+/// Whether a part begins a run anew, of which iterations are there already.
+[[nodiscard]] bool begins_again(const RunPart& part, const Trace& trace);
 
 /// The options of `smooth` that decide what happens to a mesh: all but its files and what is printed. The
 /// same words do the same again: a trace keeps them.

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
+#include "cli/output_files.h"
 #include "cli/smooth_run.h"
 #include "cli/table.h"
 #include "io/atomic_file.h"
@@ -200,6 +201,7 @@ class TraceCommand : public Command {
     if (csv_.empty() && json_file_.empty() && meshes_.empty() && vtk_.empty())
       throw UsageError("nothing to export: give --csv, --json, --meshes or --vtk");
     const auto chosen = parse_iterations(iterations_, trace.iterations.size());
+    check_outputs({{{"--csv", csv_}, {"--json", json_file_}}}, {file_});
     if (!csv_.empty()) write_file_atomically(csv_, trace_csv(trace));
     if (!json_file_.empty()) write_file_atomically(json_file_, trace_json(trace));
     std::size_t files = (csv_.empty() ? 0 : 1) + (json_file_.empty() ? 0 : 1);

@@ -62,11 +62,16 @@ bool Watch::look(Console& console, const Trace& trace, const StepRecord& record,
     if (!stop.holds(now)) continue;
     console.message(iteration_text(trace) + "stopped because " + stop.text());
     last_positions_.clear();
+    broken_by_ = stop.text();
     return false;
   }
   last_ = record;
   last_positions_.assign(positions.begin(), positions.end());
   return true;
+}
+
+void Watch::begin_again(Console& console) const {
+  if (wanted()) console.message("the run is done again from the start; why is told at the end");
 }
 
 void Watch::finish(Console& console, const Trace& trace) const {

@@ -24,6 +24,10 @@ class Watch {
   /// Looks at the iteration that `trace` has just taken up. Returns whether the run goes on.
   [[nodiscard]] bool look(Console& console, const Trace& trace, const StepRecord& record,
                           std::span<const Vec3> positions);
+  /// Tells that the iterations that follow are those of another attempt.
+  void begin_again(Console& console) const;
+  /// The predicate that ended the run; empty: none did.
+  [[nodiscard]] const std::string& broken_by() const { return broken_by_; }
   /// Looks once more at the last iteration, as the last one.
   void finish(Console& console, const Trace& trace) const;
 
@@ -33,6 +37,7 @@ class Watch {
   /// The last iteration, kept for what holds only there.
   StepRecord last_;
   std::vector<Vec3> last_positions_;
+  std::string broken_by_;
 };
 
 }  // namespace isorelax::cli

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/program.h"
 
 namespace isorelax::test {
 namespace {
+
+using Json = nlohmann::json;
 
 TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   const Workspace workspace;
@@ -200,6 +203,45 @@ TEST(SmoothCommand, FindsOutBeforeTheWorkThatItCannotWrite) {
   EXPECT_EQ(no_report.status, 4);
   expect_one_error_line(no_report);
   EXPECT_EQ(contents(workspace.path("o.off")), "");
+}
+
+TEST(SmoothCommand, ReplacesNothingThatItReadsOrWrites) {
+  const Workspace workspace;
+  const std::string in = workspace.path("in.off"), out = workspace.path("out.off");
+  ASSERT_EQ(run_program("generate random --triangles 100 -o " + in).status, 0);
+  const std::string mesh = contents(in);
+  std::filesystem::create_symlink("in.off", workspace.path("link.off"));
+  const std::string smooth = "smooth " + in + " -o " + out;
+  const std::string twice = workspace.path("a.json");
+  for (const std::string& wrong :
+       {smooth + " --report " + in, smooth + " --trace " + workspace.path("link.off"),
+        smooth + " --report " + out, smooth + " --report " + twice + " --trace " + twice,
+        "smooth " + in + " -o " + workspace.path("r.off") + " --reference " + workspace.path("link.off") +
+            " --trace " + workspace.path("r.off"),
+        "compare " + in + " " + in + " --report " + in, "render " + in + " -o a.png --save-view " + in}) {
+    const Outcome outcome = run_program(wrong);
+    EXPECT_EQ(outcome.status, 2) << wrong;
+    expect_one_error_line(outcome);
+  }
+  EXPECT_EQ(contents(in), mesh);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  // The mesh itself may be replaced.
+  EXPECT_EQ(run_program("smooth " + in + " --quiet -o " + in).status, 0);
+  EXPECT_NE(contents(in), mesh);
+}
+
+TEST(SmoothCommand, TellsThatARunWasDoneAgain) {
+  const Workspace workspace;
+  const std::string in = workspace.path("in.off"), report = workspace.path("r.json");
+  ASSERT_EQ(run_program("generate part --triangles 4000 --seed 3 -o " + in).status, 0);
+  const Outcome outcome = run_program("smooth " + in + " --log 'iteration == 1' --report " + report + " -o " +
+                                      workspace.path("out.off"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json object = Json::parse(contents(report));
+  ASSERT_EQ(object["attempts"], 2);
+  EXPECT_GT(object["seconds"], 0);
+  EXPECT_NE(outcome.err.find("done again from the start"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("done again with"), std::string::npos) << outcome.err;
 }
 
 TEST(SmoothCommand, LeavesNothingBehindWhereTheResultDoesNotFit) {
