@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "mesh/parallel.h"
@@ -115,6 +116,89 @@ class CreaseGraph {
   std::vector<std::uint8_t> kept_;
 };
 
+/// Looks for gentle edges that lead from the free end of a line to another line.
+class GapBridge {
+ public:
+  GapBridge(std::span<const Vec3> positions, std::span<const Triangle> triangles, const Topology& topology,
+            const FeatureOptions& options, std::span<const double> turns_deg,
+            const std::vector<FeatureEdge>& creases)
+      : x_(positions),
+        triangles_(triangles),
+        topology_(topology),
+        options_(options),
+        turns_(turns_deg),
+        creases_(topology.vertex_count()) {
+    for (const FeatureEdge& e : creases) {
+      creases_[e.vertices[0]].push_back(e.vertices[1]);
+      creases_[e.vertices[1]].push_back(e.vertices[0]);
+    }
+  }
+
+  /// The edges of all gaps, each once.
+  [[nodiscard]] std::vector<FeatureEdge> edges() const {
+    std::vector<FeatureEdge> all;
+    for (Index v = 0; v < creases_.size(); ++v) {
+      if (creases_[v].size() != 1 || topology_.is_boundary(v)) continue;
+      const std::vector<FeatureEdge> gap = from(creases_[v][0], v);
+      all.insert(all.end(), gap.begin(), gap.end());
+    }
+    std::ranges::sort(all, {}, &FeatureEdge::corner);
+    all.erase(std::ranges::unique(all, {}, &FeatureEdge::corner).begin(), all.end());
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 16;
+  static constexpr double kGentlest = 0.5;     // of the ridge angle
+  static constexpr double kStraightest = 0.7;  // cosine of the largest turn of the line
+  static constexpr double kStandsOut = 1.5;    // times the next edge at a vertex
+
+  /// The way on from `at`, where a line from `before` ends; empty where it leads nowhere.
+  [[nodiscard]] std::vector<FeatureEdge> from(Index before, Index at) const {
+    std::vector<FeatureEdge> gap;
+    while (gap.size() < kLongest) {
+      const std::optional<FeatureEdge> edge = next_edge(before, at);
+      if (!edge) break;
+      gap.push_back(*edge);
+      before = at;
+      at = edge->vertices[0] == before ? edge->vertices[1] : edge->vertices[0];
+      if (!creases_[at].empty() || topology_.is_boundary(at)) return gap;
+    }
+    return {};
+  }
+
+  /// The one edge at a vertex that stands out and goes on as the line came.
+  [[nodiscard]] std::optional<FeatureEdge> next_edge(Index before, Index at) const {
+    const Vec3 came = (x_[at] - x_[before]).stableNormalized();
+    std::optional<FeatureEdge> found;
+    double most = kGentlest * options_.ridge_angle_deg, second = 0;
+    for (const Corner own : topology_.corners_of(at)) {
+      // Of the two edges at the vertex the one that the corner after it looks at: all of them, once.
+      const Corner c = own - own % 3 + next(own % 3);
+      const Corner other = topology_.opposite(c);
+      const Index end = triangles_[own / 3][previous(own % 3)];
+      if (other == kNone || end == before) continue;
+      if (turns_[c] <= most) {
+        second = std::max(second, turns_[c]);
+        continue;
+      }
+      if (found) second = most;
+      most = turns_[c];
+      found = FeatureEdge{{at, end}, std::min(c, other)};
+    }
+    if (!found || most < kStandsOut * second) return {};
+    const Vec3 goes = (x_[found->vertices[1]] - x_[at]).stableNormalized();
+    return came.dot(goes) > kStraightest ? found : std::nullopt;
+  }
+
+  std::span<const Vec3> x_;
+  std::span<const Triangle> triangles_;
+  const Topology& topology_;
+  const FeatureOptions& options_;
+  std::span<const double> turns_;
+  std::vector<std::vector<Index>> creases_;  // the other ends, by vertex
+};
+
 /// Vertices where creases go every which way: at least four, and half of the edges. Flat surroundings tell a
 /// corner from them, and so does how far its angles are from those of a plane.
 std::vector<std::uint8_t> webs(std::span<const FeatureEdge> creases, const Topology& topology,
@@ -156,9 +240,9 @@ std::vector<double> dihedral_turns_deg(std::span<const Vec3> positions, std::spa
   return turns;
 }
 
-std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const Topology& topology,
-                                      const FeatureOptions& options, std::span<const double> turns_deg,
-                                      std::span<const double> spread_deg,
+std::vector<FeatureEdge> find_creases(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                      const Topology& topology, const FeatureOptions& options,
+                                      std::span<const double> turns_deg, std::span<const double> spread_deg,
                                       std::span<const double> angle_defect_deg) {
   std::vector<FeatureEdge> creases;
   Roughness roughness(topology.vertex_count());
@@ -181,7 +265,13 @@ std::vector<FeatureEdge> find_creases(std::span<const Triangle> triangles, const
   std::erase_if(creases, [&](const FeatureEdge& e) {
     return turns_deg[e.corner] <= options.sharp_edge_deg && in_web[e.vertices[0]] + in_web[e.vertices[1]] > 0;
   });
-  return CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_lines();
+  creases = CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_lines();
+  if (!(options.ridge_angle_deg < 180)) return creases;
+  const std::vector<FeatureEdge> gaps =
+      GapBridge(positions, triangles, topology, options, turns_deg, creases).edges();
+  creases.insert(creases.end(), gaps.begin(), gaps.end());
+  std::ranges::sort(creases, {}, &FeatureEdge::corner);
+  return creases;
 }
 
 }  // namespace isorelax

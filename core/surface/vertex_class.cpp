@@ -16,6 +16,7 @@ namespace {
 /// not.
 constexpr double kStraightDeg = 0.003;
 constexpr double kKinkDeg = 0.05;
+constexpr double kRoundingDeg = 1e-6;
 /// A meshed flat face ends in an edge that turns by more than this, not in an uneven triangle.
 constexpr double kRimDeg = 2;
 /// A flat face is meshed for its own sake with as many vertices inside as on its rim; beside another one,
@@ -78,7 +79,8 @@ class Classifier {
 
   /// Between the passes: what is_crease_ and the lines go by.
   void find_lines() {
-    r_.creases = find_creases(triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
+    r_.creases =
+        find_creases(x_, triangles_, topology_, options_, turns_, r_.spread_deg, r_.angle_defect_deg);
     for (const FeatureEdge& e : r_.creases) mark_crease(e.corner);
     const bool rims = options_.ridge_angle_deg < 180 &&
                       std::ranges::any_of(turns_, [](double turn) { return turn > kRimDeg; });
@@ -128,7 +130,8 @@ class Classifier {
     const std::vector<Index> ends = border_neighbours(v);
     if (ends.size() != 2 || !crease_neighbours(v).empty()) return set(v, VertexClass::corner, 180);
     r_.turn_deg[v] = turn(v, {ends[0], ends[1]});
-    const double over = r_.turn_deg[v] - options_.boundary_turn_deg;
+    // An angle of just the limit is one whichever way it was rounded.
+    const double over = r_.turn_deg[v] - options_.boundary_turn_deg - kRoundingDeg;
     if (over <= 0 && ends_a_straight_stretch(v, {ends[0], ends[1]}))
       return set(v, VertexClass::corner, r_.turn_deg[v] - kKinkDeg);
     set(v, over > 0 ? VertexClass::corner : VertexClass::boundary, std::abs(over));

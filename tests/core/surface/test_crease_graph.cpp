@@ -17,6 +17,8 @@ struct Sheet {
       }
     }
     topology = Topology(triangles, n * n);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) positions.emplace_back(i, j, 0);
     turns.assign(3 * triangles.size(), 0);
   }
   [[nodiscard]] Index at(Index i, Index j) const { return j * n + i; }
@@ -32,10 +34,11 @@ struct Sheet {
   }
   [[nodiscard]] std::size_t creases() const {
     const std::vector<double> spread(n * n, 90), defect(n * n, 0);
-    return find_creases(triangles, topology, {}, turns, spread, defect).size();
+    return find_creases(positions, triangles, topology, {}, turns, spread, defect).size();
   }
 
   Index n;
+  std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   Topology topology;
   std::vector<double> turns;
@@ -66,6 +69,33 @@ TEST(CreaseGraph, AShortLoopWhoseVerticesAllMeetOthersStays) {
               sheet.at(5, 11), sheet.at(5, 12)},
              80);
   EXPECT_EQ(sheet.creases(), 3U + 4U + 4U + 7U);
+}
+
+TEST(CreaseGraph, ALineGoesOnWhereItIsGentleOnItsWay) {
+  const auto count = [](double turn, double others) {
+    Sheet sheet(12);
+    const auto along = [&](Index first, Index last, double degrees) {
+      std::vector<Index> chain;
+      for (Index i = first; i <= last; ++i) chain.push_back(sheet.at(i, 5));
+      sheet.turn(chain, degrees);
+    };
+    along(0, 5, 80);
+    along(5, 8, turn);
+    along(8, 12, 60);
+    sheet.turn({sheet.at(6, 4), sheet.at(6, 5), sheet.at(6, 6)}, others);
+    return sheet.creases();
+  };
+  EXPECT_EQ(count(20, 5), 12U);
+  EXPECT_EQ(count(14, 5), 9U);   // too gentle
+  EXPECT_EQ(count(20, 18), 9U);  // others at a vertex on the way turn as much
+}
+
+TEST(CreaseGraph, AGentleLineThatLeadsNowhereIsNone) {
+  Sheet sheet(12);
+  sheet.turn({sheet.at(0, 5), sheet.at(1, 5), sheet.at(2, 5), sheet.at(3, 5), sheet.at(4, 5), sheet.at(5, 5)},
+             80);
+  sheet.turn({sheet.at(5, 5), sheet.at(6, 5), sheet.at(7, 5), sheet.at(8, 5)}, 20);
+  EXPECT_EQ(sheet.creases(), 5U);
 }
 
 TEST(CreaseGraph, ALineThatLosesItsOtherEndIsLookedAtAgain) {
