@@ -19,6 +19,8 @@ namespace {
 constexpr double kStageTolerance = 1e-4;
 /// Nor need a run that only finds out what is to be held.
 constexpr double kTryTolerance = 1e-3;
+/// Degrees by which a mean may fall and still counts as the same.
+constexpr double kSameMean = 0.01;
 constexpr auto kSurfaceBit = static_cast<std::size_t>(std::countr_zero(unsigned{kLimitSurface}));
 
 /// Three digits of a number.
@@ -190,6 +192,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   // far all the same, quick tries find what has to be held.
   RunOptions quick = attempts.run_options;
   quick.tolerance = std::max(quick.tolerance, kTryTolerance);
+  std::vector<std::string> notes;
   for (bool trying = false;; std::copy(original.begin(), original.end(), positions.begin())) {
     const SmoothingProblem problem = hold_within(limit);
     BoundedResult result =
@@ -199,14 +202,18 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     if (limit < widest && at_limit > 0 && !cancelled && !trying &&
         wider_limit_pays(hold_within(widest), attempts.make_smoother, positions,
                          attempts.run_options.iterations)) {
+      notes.push_back("done again with " + short_text(widest) + " of the diagonal as the largest distance: " +
+                      short_text(limit) + " held " + std::to_string(at_limit) +
+                      (at_limit == 1 ? " vertex" : " vertices") + " back, and more pays");
       limit = widest;
       continue;
     }
     if (!attempts.limit.max && at_limit > 0) {
       result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
-                             " at --max-deviation, here " + short_text(limit) +
-                             ": they would have led farther from the input");
+                             " as far from the input as is allowed, " + short_text(limit) +
+                             " of its diagonal, and would have gone farther (--max-deviation)");
     }
+    result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     SurfaceWatch::Finding found = watch.look(positions, limit);
     result.deviation_limit = limit;
     const bool sound = found.sound();
@@ -223,21 +230,26 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
 
 /// `run_from` with the exponent asked for, or the better one of 2 and 1.
 BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const Vec3> surface,
-                                     const ProblemOptions& options, const Attempts& attempts) {
-  if (options.exponent) return run_from(positions, surface, options, attempts);
+                                     double mean_of_input, const ProblemOptions& options,
+                                     const Attempts& attempts) {
+  const bool is_about_angles = options.weights.area <= options.weights.shape;
+  if (options.exponent || !is_about_angles) return run_from(positions, surface, options, attempts);
   const std::vector<Vec3> original(positions.begin(), positions.end());
-  const double before = mean_of_smallest_angles(original, attempts.triangles, options.threads);
+  const auto mean = [&] { return mean_of_smallest_angles(positions, attempts.triangles, options.threads); };
   BoundedResult result = run_from(positions, surface, options, attempts);
-  const double after = mean_of_smallest_angles(positions, attempts.triangles, options.threads);
-  if (after >= before || result.run.stopped == StopReason::cancelled) return result;
+  const double with_squares = mean();
+  if (with_squares >= mean_of_input - kSameMean || result.run.stopped == StopReason::cancelled) return result;
   ProblemOptions linear = options;
   linear.exponent = 1;
   std::copy(original.begin(), original.end(), positions.begin());
   result = run_from(positions, surface, linear, attempts);
-  const bool falls = mean_of_smallest_angles(positions, attempts.triangles, options.threads) < before;
+  if (result.run.stopped == StopReason::cancelled) return result;
+  if (mean() <= with_squares + kSameMean) {
+    std::copy(original.begin(), original.end(), positions.begin());
+    return run_from(positions, surface, options, attempts);
+  }
   result.notes.emplace_back(
-      falls ? "the exponent is 1: with 2, too, the worst triangles get better at the cost of all others"
-            : "the exponent is 1: with 2, the worst triangles would get better at the cost of all others");
+      "the exponent is 1: with 2, the worst triangles get better at the cost of all others");
   return result;
 }
 
@@ -250,8 +262,9 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& 
   auto [untangled, notes] = untangle_start(positions, triangles, problem_options, limit);
   const bool moved = !untangled.moved.empty();
   const std::vector<Vec3> start(positions.begin(), positions.end());
-  BoundedResult result =
-      run_with_some_exponent(positions, limit.max ? input : start, problem_options, attempts);
+  BoundedResult result = run_with_some_exponent(
+      positions, limit.max ? input : start,
+      mean_of_smallest_angles(input, triangles, problem_options.threads), problem_options, attempts);
   // Triangles upside down in a plane cover what the sound ones cover as well.
   const auto topology = [&] { return Topology(triangles, static_cast<Index>(positions.size())); };
   if (moved && !plane_normal(input, triangles, topology(), problem_options.threads))

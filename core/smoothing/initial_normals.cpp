@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "smoothing/turn_limit.h"
-
 namespace isorelax {
 namespace {
 
@@ -11,7 +9,9 @@ namespace {
 /// degrees.
 constexpr double kSliver = 0.1;
 /// Normals agree whose sum is longer than this share of what it would be if all were the same.
-constexpr double kAgreement = 0.9;
+constexpr double kAgreement = 0.8;
+/// Cosine of a turn of some 115 degrees, beyond which edges may come to count as folds.
+constexpr double kFolding = -0.42;
 
 struct Faces {
   std::span<const Vec3> x;
@@ -28,14 +28,14 @@ struct Faces {
 }  // namespace
 
 std::vector<Vec3> initial_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                  const VertexClasses& classes) {
+                                  const Topology& topology, const VertexClasses& classes) {
   const Faces faces{positions, triangles};
-  std::vector<Vec3> normals, sums(positions.size(), Vec3::Zero());
+  std::vector<Vec3> own, sums(positions.size(), Vec3::Zero());
   std::vector<double> weights(positions.size(), 0);
-  normals.reserve(triangles.size());
+  own.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     const Vec3 area = faces.area(t);
-    normals.push_back(area.stableNormalized());
+    own.push_back(area.stableNormalized());
     if (faces.is_sliver(t)) continue;
     for (const Index v : t) {
       sums[v] += area;
@@ -43,14 +43,30 @@ std::vector<Vec3> initial_normals(std::span<const Vec3> positions, std::span<con
     }
   }
   const auto is_smooth = [&](Index v) { return classes.classes[v] == VertexClass::smooth; };
+  const auto folds_more = [&](std::size_t t, const Vec3& normal) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Corner across = topology.opposite(static_cast<Corner>(3 * t + k));
+      if (across == kNone) continue;
+      const double along = normal.dot(own[across / 3]);
+      if (along < kFolding && along < own[t].dot(own[across / 3])) return true;
+    }
+    return false;
+  };
+  std::vector<Vec3> normals = own;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
-    if (!std::ranges::all_of(t, is_smooth) || !faces.is_sliver(t)) continue;
-    const Vec3 sum = sums[t[0]] + sums[t[1]] + sums[t[2]];
-    if (!(sum.norm() > kAgreement * (weights[t[0]] + weights[t[1]] + weights[t[2]]))) continue;
+    if (!faces.is_sliver(t)) continue;
+    // What lies about a ridge says nothing about either side of it.
+    Vec3 sum = Vec3::Zero();
+    double weight = 0;
+    for (const Index v : t) {
+      if (!is_smooth(v)) continue;
+      sum += sums[v];
+      weight += weights[v];
+    }
+    if (!(weight > 0 && sum.norm() > kAgreement * weight)) continue;
     const Vec3 theirs = sum.normalized();
-    const double along = theirs.dot(normals[i]);
-    if (along > 0 && along < TurnLimit::kLeastCosine) normals[i] = theirs;
+    if (theirs.dot(own[i]) > 0 && !folds_more(i, theirs)) normals[i] = theirs;
   }
   return normals;
 }

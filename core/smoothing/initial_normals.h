@@ -8,10 +8,10 @@
 namespace isorelax {
 
 /// Unit normals of the triangles, for SmoothingProblem::initial_normals. A sliver's own normal points
-/// anywhere: inside a face, where it is farther than a triangle may turn (TurnLimit) from the one on which
-/// the other triangles about its corners agree, it gets theirs. Zero for a triangle without area.
+/// anywhere: where the other triangles about its corners that are on no ridge agree on one, it gets theirs,
+/// unless it opposes that or an edge would seem to be folded by it. Zero for a triangle without area.
 [[nodiscard]] std::vector<Vec3> initial_normals(std::span<const Vec3> positions,
-                                                std::span<const Triangle> triangles,
+                                                std::span<const Triangle> triangles, const Topology& topology,
                                                 const VertexClasses& classes);
 
 }  // namespace isorelax

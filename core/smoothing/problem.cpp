@@ -8,6 +8,8 @@
 #include "smoothing/renumbered_problem.h"
 #include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
+#include "smoothing/surface_limit.h"
+#include "surface/deviation.h"
 
 namespace isorelax {
 namespace {
@@ -212,7 +214,7 @@ class ProblemBuilder {
   }
 
   void freeze_surface() {
-    if (!p_.plane_normal) p_.initial_normals = initial_normals(x_, p_.triangles, p_.classes);
+    if (!p_.plane_normal) p_.initial_normals = initial_normals(x_, p_.triangles, p_.topology, p_.classes);
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
@@ -367,10 +369,12 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
     problem.mobility[v] = Mobility::none;
     problem.fixed_limits[v] |= kLimitSurface;
   }
-  // In a plane only a border that moves could leave what the mesh covers.
+  // In a plane only a border that moves, and not along straight stretches alone, could leave what the mesh
+  // covers.
   bool can_leave = !problem.plane_normal;
+  const double rounding = 1e-14 * bounding_diagonal(positions);
   for (Index v = 0; v < problem.vertex_count() && !can_leave; ++v)
-    can_leave = problem.topology.is_boundary(v) && problem.mobility[v] != Mobility::none;
+    can_leave = changes_outline(problem, positions, v, rounding);
   if (std::isfinite(holds.distance) && can_leave) {
     problem.near = {holds.distance,
                     {positions.begin(), positions.end()},

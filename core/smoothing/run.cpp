@@ -9,10 +9,6 @@
 namespace isorelax {
 namespace {
 
-/// Largest move, in mean edges, and decrease of the energy of a mesh that may count as converged by its
-/// gradient.
-constexpr double kSettled = 1e-3;
-
 /// Steps in a row that have to gain next to nothing: a single one may have been cut back.
 constexpr unsigned kIdleSteps = 5;
 
@@ -24,19 +20,22 @@ double energy_scale(const SmoothingProblem& problem, double energy) {
   return std::min(energy, 2 * least * static_cast<double>(problem.triangle_count()));
 }
 
+/// What the norm of the gradient is measured against: the first one, but no more than what vertices have
+/// whose triangles all change by their energies within an edge length. Slivers make the first one huge.
+double gradient_scale_of(const SmoothingProblem& problem, const StepTotals& first) {
+  const double energy_of_edge = energy_scale(problem, first.energy) / problem.mean_edge_length;
+  return std::min(first.gradient_norm, energy_of_edge / std::sqrt(problem.vertex_count()));
+}
+
 /// The stop that the last record asks for, if any.
 std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord& record,
                                      const RunResult& result, const RunOptions& options,
-                                     unsigned idle_steps) {
+                                     double gradient_scale, unsigned idle_steps) {
   if (!(options.tolerance > 0)) return std::nullopt;
   if (!smoother.descends()) {
     return result.relative_move <= options.tolerance ? std::optional(StopReason::movement) : std::nullopt;
   }
-  // Slivers at the start make the first gradient huge: a small ratio alone says little while vertices still
-  // move or the energy still falls.
-  if (result.gradient_ratio <= options.tolerance && result.relative_move <= kSettled &&
-      result.energy_change <= kSettled)
-    return StopReason::gradient;
+  if (record.before.gradient_norm <= options.tolerance * gradient_scale) return StopReason::gradient;
   if (record.moved == 0) return record.energy_passes > 0 ? StopReason::stalled : StopReason::movement;
   if (result.relative_move <= options.tolerance) return StopReason::movement;
   if (idle_steps >= kIdleSteps) return StopReason::energy;
@@ -94,6 +93,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
   if (!any_free) result.stopped = StopReason::fixed;
   StepRecord record;
   double first_gradient = 0;
+  double gradient_scale = 0;
   unsigned idle_steps = 0;
   for (unsigned i = 0; any_free && i < options.iterations; ++i) {
     smoother.step(positions, record);
@@ -102,6 +102,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
     if (i == 0) {
       result.before = record.before;
       first_gradient = record.before.gradient_norm;
+      gradient_scale = gradient_scale_of(problem, record.before);
     }
     result.after = record.after;
     result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
@@ -113,7 +114,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
       result.stopped = StopReason::cancelled;
       break;
     }
-    if (const auto stop = stop_after(smoother, record, result, options, idle_steps)) {
+    if (const auto stop = stop_after(smoother, record, result, options, gradient_scale, idle_steps)) {
       result.stopped = *stop;
       break;
     }

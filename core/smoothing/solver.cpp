@@ -36,8 +36,14 @@ class AutomaticSmoother : public Smoother {
     if (!std::ranges::equal(positions, led_to_)) begin();
     if (phase_ == Phase::even) even_out_->step(positions, record);
     if (phase_ == Phase::even && record.moved == 0) phase_ = Phase::newton;
-    if (phase_ == Phase::newton) once_made(newton_, Solver::newton).step(positions, record);
-    if (phase_ == Phase::lbfgs) once_made(lbfgs_, Solver::lbfgs).step(positions, record);
+    if (phase_ == Phase::newton) {
+      if (!newton_) newton_ = make_newton(problem_, {.detail = detail_});
+      newton_->step(positions, record);
+    }
+    if (phase_ == Phase::lbfgs) {
+      if (!lbfgs_) lbfgs_ = make_lbfgs(problem_, {.detail = detail_});
+      lbfgs_->step(positions, record);
+    }
     // What leads all of them nowhere may still leave one after another a way.
     if (phase_ != Phase::one_by_one && record.moved == 0) {
       all_are_stuck_ = phase_ == Phase::lbfgs && steps_for_all_ == 0;
@@ -60,11 +66,6 @@ class AutomaticSmoother : public Smoother {
     if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
     steps_for_all_ = 0;
     all_are_stuck_ = false;
-  }
-
-  Smoother& once_made(std::unique_ptr<Smoother>& smoother, Solver solver) const {
-    if (!smoother) smoother = make_smoother(problem_, solver, detail_);
-    return *smoother;
   }
 
   [[nodiscard]] static bool is_at_limit(const StepRecord& record) {
@@ -97,6 +98,25 @@ class AutomaticSmoother : public Smoother {
   bool all_are_stuck_ = false;  // L-BFGS found no step from where others had led
 };
 
+/// L-BFGS; where it finds no step, vertices find theirs one by one, and it starts anew from there.
+class PersistentLbfgs : public Smoother {
+ public:
+  PersistentLbfgs(const SmoothingProblem& problem, const LbfgsOptions& options)
+      : lbfgs_(make_lbfgs(problem, options)), problem_(problem), detail_(options.detail) {}
+
+  void step(std::span<const Vec3> positions, StepRecord& record) override {
+    lbfgs_->step(positions, record);
+    if (record.moved > 0) return;
+    if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
+    one_by_one_->step(positions, record);
+  }
+
+ private:
+  std::unique_ptr<Smoother> lbfgs_, one_by_one_;
+  const SmoothingProblem& problem_;
+  RecordDetail detail_;
+};
+
 }  // namespace
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver solver, RecordDetail detail) {
@@ -110,7 +130,9 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver 
     case Solver::newton:
       return make_newton(problem, newton);
     case Solver::lbfgs:
-      return make_lbfgs(problem, lbfgs);
+      return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+        return std::make_unique<PersistentLbfgs>(numbered, lbfgs);
+      });
     case Solver::automatic:
       break;
   }

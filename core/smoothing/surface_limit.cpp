@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/parallel.h"
+#include "surface/deviation.h"
 #include "surface/feature_edges.h"
 #include "surface/walk.h"
 
@@ -17,6 +18,8 @@ constexpr double kSeen = 0.98;
 /// up to this turn, by no more than what is left above the share that may be proven, with some for rounding.
 constexpr double kSharpTurnDeg = 10;
 constexpr double kProven = 0.99619469809174555 - 1e-9;
+/// Of the diagonal: nearer than that nothing can be told to be.
+constexpr double kRoundingShare = 5e-15;
 /// An edge is divided that often at most, and not too near to an end.
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
@@ -27,13 +30,28 @@ constexpr double kLeastWeight = 0.05;
 
 }  // namespace
 
+bool runs_straight(const Vec3& before, const Vec3& at, const Vec3& behind, double rounding) {
+  const Vec3 in = at - before, out = behind - at;
+  return in.dot(out) > 0 && in.cross(out).norm() <= rounding * (in + out).norm();
+}
+
+bool changes_outline(const SmoothingProblem& problem, std::span<const Vec3> positions, Index vertex,
+                     double rounding) {
+  if (!problem.topology.is_boundary(vertex) || problem.mobility[vertex] == Mobility::none) return false;
+  const auto slides = problem.border.find(vertex);
+  if (slides == problem.border.end()) return true;
+  const auto& [before, behind] = slides->second;
+  return !runs_straight(positions[before], positions[vertex], positions[behind], rounding);
+}
+
 /// Not before it is needed: of the solvers of a run, some never step.
 void SurfaceLimit::prepare() {
-  if (!lines_.empty()) return;
+  if (!last_.empty()) return;
   const NearSurface& near = *problem_.near;
   const Topology& topology = problem_.topology;
-  seen_ = kSeen * near.distance;
-  proven_ = kProven * near.distance;
+  const double rounding = kRoundingShare * bounding_diagonal(near.positions);
+  seen_ = std::max(kSeen * near.distance, rounding);
+  proven_ = std::max(kProven * near.distance, rounding);
   last_ = near.positions;
   travelled_.assign(last_.size(), 0);
   moves_.assign(last_.size(), 0);
@@ -44,7 +62,9 @@ void SurfaceLimit::prepare() {
     const Triangle& t = problem_.triangles[c / 3];
     const std::array<Index, 2> ends = {t[next(c % 3)], t[previous(c % 3)]};
     // In a plane only the outline can be far from where it was.
-    if (problem_.plane_normal && !topology.is_boundary(ends[0]) && !topology.is_boundary(ends[1])) continue;
+    if (problem_.plane_normal && !changes_outline(problem_, near.positions, ends[0], rounding) &&
+        !changes_outline(problem_, near.positions, ends[1], rounding))
+      continue;
     ends_of_.push_back(ends);
     for (const Index v : ends) is_end[v] = 1;
     if (topology.opposite(c) == kNone ||

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "mesh/parallel.h"
 #include "quality/inverted.h"
+#include "smoothing/surface_limit.h"
 
 namespace isorelax {
 namespace {
@@ -74,13 +76,41 @@ SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> 
     : surface_(surface),
       start_(start),
       problem_(problem),
-      inverted_(inverted_triangles(start, problem.triangles, problem.topology, problem.threads)) {}
+      inverted_(inverted_triangles(start, problem.triangles, problem.topology, problem.threads)) {
+  if (!problem.plane_normal) at_the_start_ = ClosestPointIndex(start, problem.triangles);
+}
+
+/// Triangles that oppose the one of the start that is nearest to their centroids, and did not when the run
+/// began: one that did lies about a crease, or on the other side of something thin.
+std::vector<Index> SurfaceWatch::facing_away(std::span<const Vec3> positions) const {
+  if (problem_.plane_normal) return {};
+  const auto area_at = [](std::span<const Vec3> x, const Triangle& t) {
+    return area_vector(x[t[0]], x[t[1]], x[t[2]]);
+  };
+  std::vector<std::vector<Index>> found(block_count(problem_.triangle_count()));
+  parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = problem_.triangles[i];
+      if (problem_.treated[i] == 0) continue;
+      const Vec3 centroid = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
+      const Index beside = at_the_start_.closest(centroid, static_cast<Index>(i)).triangle;
+      const Vec3 there = area_at(start_, problem_.triangles[beside]);
+      if (area_at(positions, t).dot(there) < 0 && area_at(start_, t).dot(there) > 0)
+        found[begin / kBlockSize].push_back(static_cast<Index>(i));
+    }
+  });
+  std::vector<Index> all;
+  for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
+  return all;
+}
 
 SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions, double limit) const {
   Finding found;
   const std::vector<Index> inverted =
       inverted_triangles(positions, problem_.triangles, problem_.topology, problem_.threads);
   found.turned = vertices_turned_over(inverted_, inverted, problem_.triangles);
+  for (const Index t : facing_away(positions))
+    found.turned.insert(found.turned.end(), problem_.triangles[t].begin(), problem_.triangles[t].end());
   found.turned_triangles = found.turned.size() / 3;
   if (std::ranges::equal(surface_, start_) && covers_the_same(positions, inverted)) return found;
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
@@ -126,8 +156,7 @@ bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const 
 /// Whether the border only moved along its straight stretches, whose ends stayed.
 bool SurfaceWatch::keeps_border(std::span<const Vec3> after, double rounding) const {
   const auto goes_straight_between = [&](std::span<const Vec3> x, Index before, Index v, Index behind) {
-    const Vec3 in = x[v] - x[before], out = x[behind] - x[v];
-    return in.dot(out) > 0 && in.cross(out).norm() <= rounding * (in + out).norm();
+    return runs_straight(x[before], x[v], x[behind], rounding);
   };
   for (Index v = 0; v < start_.size(); ++v) {
     if (start_[v] == after[v] || !problem_.topology.is_boundary(v)) continue;

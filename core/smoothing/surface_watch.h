@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "smoothing/problem.h"
+#include "surface/closest_point.h"
 #include "surface/deviation.h"
 
 namespace isorelax {
@@ -14,8 +15,10 @@ class SurfaceWatch {
   /// What is wrong with a result.
   struct Finding {
     Deviation deviation;
-    std::vector<Index> far;     ///< vertices of triangles over the limit, or near it where one is over
-    std::vector<Index> turned;  ///< of triangles that lie upside down and did not at the start
+    std::vector<Index> far;  ///< vertices of triangles over the limit, or near it where one is over
+    /// Of triangles that lie upside down and did not at the start, and of those that face away from the
+    /// surface beside them, as it was, and did not.
+    std::vector<Index> turned;
     std::size_t turned_triangles = 0;
 
     [[nodiscard]] bool sound() const { return far.empty() && turned.empty(); }
@@ -37,12 +40,14 @@ class SurfaceWatch {
   void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const;
 
  private:
+  [[nodiscard]] std::vector<Index> facing_away(std::span<const Vec3> positions) const;
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
   [[nodiscard]] bool keeps_border(std::span<const Vec3> after, double rounding) const;
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;
-  std::vector<Index> inverted_;  // at the start
+  std::vector<Index> inverted_;     // at the start
+  ClosestPointIndex at_the_start_;  // of a surface that is not flat
 };
 
 }  // namespace isorelax

@@ -128,7 +128,7 @@ DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original
   const double volume = enclosed_volume(original, triangles, threads);
   if (is_closed(topology) && std::abs(volume) > kLeastVolume * diagonal * diagonal * diagonal) {
     result.has_volume = true;
-    result.volume_change = (enclosed_volume(changed, triangles, threads) - volume) / std::abs(volume);
+    result.volume_change = (enclosed_volume(changed, triangles, threads) - volume) / volume;
   }
   return all;
 }

@@ -14,7 +14,7 @@ namespace isorelax {
 struct Deviation {
   double max = 0;  ///< largest distance between the two surfaces, over the original's bounding-box diagonal
   double rms = 0;  ///< root of the mean squared distance over the area of both, over the same diagonal
-  /// (new - old) / |old| enclosed volume; 0 where nothing is enclosed.
+  /// (new - old) / old enclosed volume, whichever way the surface faces; 0 where nothing is enclosed.
   double volume_change = 0;
   /// Whether the surface is closed, consistently oriented and encloses a volume: volume_change means
   /// something.

@@ -118,6 +118,9 @@ TEST(Borders, ACornerIsWhatTurnsByMoreThanTheStatedAngle) {
   EXPECT_EQ(corners(), 24);
   options.features.boundary_turn_deg = 16;
   EXPECT_EQ(corners(), 0);
+  // Whichever way the angles of a regular polygon are rounded.
+  options.features.boundary_turn_deg = 15;
+  EXPECT_EQ(corners(), 0);
 }
 
 TEST(Borders, AFreeBorderMovesButStaysNearWhereItWas) {

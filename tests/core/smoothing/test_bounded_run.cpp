@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "generate/generate.h"
@@ -70,6 +71,42 @@ TEST(BoundedRun, WithALimitOfZeroMovesNothingThatLeavesTheSurface) {
   TriangleMesh mesh = shaken_torus();
   EXPECT_LT(smooth(mesh, 0).deviation.max, 1e-14);
   EXPECT_EQ(mesh.positions, shaken_torus().positions);
+}
+
+BoundedResult smooth_by_default(TriangleMesh& mesh, const ProblemOptions& options,
+                                const DeviationLimit& limit = {}) {
+  return run_bounded(
+      mesh.positions, mesh.triangles, options,
+      [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); }, {}, limit);
+}
+
+TEST(BoundedRun, WithALimitOfZeroBordersSlideAlongStraightLines) {
+  TriangleMesh free = generate(ShapeKind::random_square, {.seed = 5, .triangles = 400});
+  TriangleMesh limited = free;
+  smooth_by_default(free, {.boundary = BoundaryRule::slide});
+  EXPECT_EQ(smooth_by_default(limited, {.boundary = BoundaryRule::slide}, {0.0}).deviation.max, 0);
+  EXPECT_EQ(limited.positions, free.positions);
+}
+
+TEST(BoundedRun, TheExponentIsTwoWhereAreasCount) {
+  TriangleMesh squares = generate(ShapeKind::random_square, {.seed = 5, .triangles = 400});
+  TriangleMesh by_default = squares;
+  ProblemOptions options{.weights = EnergyWeights::from_mu(0.9), .boundary = BoundaryRule::slide};
+  smooth_by_default(by_default, options);
+  options.exponent = 2;
+  smooth_by_default(squares, options);
+  EXPECT_EQ(by_default.positions, squares.positions);
+}
+
+TEST(BoundedRun, OfWhatIsConvergedKeepsItsExponent) {
+  TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.seed = 5, .triangles = 400, .jitter = 0.9});
+  const auto names_the_exponent = [](const std::string& note) {
+    return note.find("exponent") != std::string::npos;
+  };
+  for (unsigned again = 0; again < 4; ++again) {
+    const BoundedResult result = smooth_by_default(mesh, {.boundary = BoundaryRule::slide});
+    EXPECT_TRUE(std::ranges::none_of(result.notes, names_the_exponent)) << again;
+  }
 }
 
 TEST(BoundedRun, EndsNotWhereStepsForAllFindNoWay) {

@@ -31,7 +31,7 @@ std::size_t at_limit(const StepRecord& record) {
 TEST(OneByOne, FindsAWayDownWhereStepsForAllFindNone) {
   TriangleMesh mesh = tight_sphere();
   const SmoothingProblem problem = kept_near(mesh);
-  const auto lbfgs = make_smoother(problem, Solver::lbfgs);
+  const auto lbfgs = make_lbfgs(problem);
   ASSERT_EQ(run(*lbfgs, problem, mesh.positions, {}).stopped, StopReason::stalled);
   const auto smoother = make_one_by_one(problem, RecordDetail::stages);
   StepRecord record;
@@ -49,7 +49,7 @@ TEST(OneByOne, FindsAWayDownWhereStepsForAllFindNone) {
 TEST(OneByOne, IsWhatAutomaticRunsGoOverTo) {
   TriangleMesh automatic = tight_sphere(), lbfgs = tight_sphere();
   const SmoothingProblem problem = kept_near(automatic);
-  const RunResult all = run(*make_smoother(problem, Solver::lbfgs), problem, lbfgs.positions, {});
+  const RunResult all = run(*make_lbfgs(problem), problem, lbfgs.positions, {});
   const RunResult some = run(*make_smoother(problem, Solver::automatic), problem, automatic.positions, {});
   EXPECT_LT(some.after.energy, 0.98 * all.after.energy);
   EXPECT_GT(measure_quality(automatic).mean_min_angle_deg, measure_quality(lbfgs).mean_min_angle_deg + 0.5);

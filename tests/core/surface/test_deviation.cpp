@@ -54,6 +54,10 @@ TEST(Deviation, OfAScaledSphereIsTheRadiusAndThreeTimesTheVolume) {
   EXPECT_NEAR(d.max * 2 * std::sqrt(3.0), e, 0.01 * e);  // the box of a sphere: its diameter on three sides
   EXPECT_NEAR(d.rms, d.max, 0.01 * d.max);
   EXPECT_LT(d.normal_change_deg, 1e-6);
+  // A surface that faces inward encloses more all the same.
+  TriangleMesh inward = mesh;
+  for (Triangle& t : inward.triangles) std::swap(t[1], t[2]);
+  EXPECT_NEAR(deviation(inward, grown).volume_change, 3 * e, 4 * e * e);
 }
 
 TEST(Deviation, CountsBothWays) {
