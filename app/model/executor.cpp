@@ -124,6 +124,13 @@ void Executor::operator()(const CopyCommandLine& /*command*/) {
   if (!s_.document) return;
   s_.command_line = command_line(s_);
   say(MessageKind::info, "Copied: " + s_.command_line);
+  const Branch* branch = s_.task == Task::smooth ? s_.timeline.current() : nullptr;
+  if (branch == nullptr || !branch->parent || branch->start == 0) return;
+  const Branch& before = s_.timeline.branches[*branch->parent];
+  if (!before.from_file && before.settings == branch->settings) return;
+  say(MessageKind::warning,
+      "What was copied does not say that this run left another one at iteration " +
+          std::to_string(branch->start) + ", where that had other settings: a saved run does.");
 }
 
 void Executor::operator()(const Say& command) {
@@ -166,6 +173,7 @@ void Executor::show(const MeshStatePtr& state) {
 
 void Executor::operator()(Loaded& event) {
   s_.document = std::move(event.document);
+  s_.messages.clear();  // they were about another mesh
   s_.original = s_.saved = event.state;
   s_.save_path.reset();
   for (const Coloring c : kMeasured) s_.run_range[static_cast<std::size_t>(c)] = event.state->range(c);

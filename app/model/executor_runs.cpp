@@ -91,7 +91,7 @@ void Executor::polish_when_idle(PartKind after) {
 
 void Executor::start_run(unsigned iterations, PartKind kind) {
   if (!s_.current) {
-    say(MessageKind::info, "Open a mesh first.");
+    say(MessageKind::info, s_.engine.busy() ? "The mesh is not there yet." : "Open a mesh first.");
     return;
   }
   if (s_.seeking_ && s_.activity == Activity::idle) {

@@ -234,4 +234,9 @@ double legend_share(const Scene& scene, PictureSize size) {
   return (layout.width() + (kEdge - kPad) * scale) / size.height;
 }
 
+double caption_share(const Scene& scene, PictureSize size) {
+  if (scene.caption.empty() || size.height <= 0) return 0;
+  return (kEdge + kLine + kPad) * text_scale(scene, size) / size.height;
+}
+
 }  // namespace isorelax::render

@@ -23,5 +23,7 @@ std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size);
 
 /// Share of the picture's height that the legend takes from the right side; 0 without one.
 double legend_share(const Scene& scene, PictureSize size);
+/// The same of the strip at the bottom in which the caption stands; 0 without one.
+double caption_share(const Scene& scene, PictureSize size);
 
 }  // namespace isorelax::render

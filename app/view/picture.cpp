@@ -97,6 +97,21 @@ Panels panels_of(const View& view, const render::Scene& legend, std::size_t coun
   return arrange(view.size, count, width);
 }
 
+/// The label of mesh i: as given, or its file's name where there are several.
+std::string label_of(const View& view, std::size_t i, std::size_t count) {
+  if (i < view.labels.size()) return view.labels[i];
+  if (count < 2 || i >= view.meshes.size()) return {};
+  return std::filesystem::path(view.meshes[i]).filename().string();
+}
+
+/// What captions need at the bottom of a cell beyond the margin, as a share of its height.
+double room_for_captions(const View& view, std::size_t count, render::Scene scene, render::PictureSize cell,
+                         double margin) {
+  for (std::size_t i = 0; i < count && scene.caption.empty(); ++i) scene.caption = label_of(view, i, count);
+  const double free = margin * std::min(cell.width, cell.height) / cell.height;
+  return std::max(0.0, render::caption_share(scene, cell) - free);
+}
+
 View resolved(const View& view, const Exhibits& exhibits, const std::vector<Prepared>& prepared,
               Arrangement arrangement) {
   View fixed = view;
@@ -110,18 +125,12 @@ View resolved(const View& view, const Exhibits& exhibits, const std::vector<Prep
   const Panels panels = panels_of(view, legend, count);
   render::FitOptions fitting;
   if (count == 1) fitting.right = render::legend_share(legend, view.size);
+  fitting.bottom = room_for_captions(view, exhibits.meshes.size(), legend, panels.cell, fitting.margin);
   std::vector<Vec3> positions;
   for (const TriangleMesh* mesh : exhibits.meshes)
     positions.insert(positions.end(), mesh->positions.begin(), mesh->positions.end());
   fixed.camera = render::parse_camera(*text, positions, panels.cell, fitting);
   return fixed;
-}
-
-/// The label of mesh i: as given, or its file's name where there are several.
-std::string label_of(const View& view, std::size_t i, std::size_t count) {
-  if (i < view.labels.size()) return view.labels[i];
-  if (count < 2 || i >= view.meshes.size()) return {};
-  return std::filesystem::path(view.meshes[i]).filename().string();
 }
 
 Subject subject_of(const View& view, const Exhibits& exhibits, const Prepared& prepared, std::size_t i) {
