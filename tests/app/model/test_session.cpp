@@ -339,6 +339,30 @@ TEST_F(SessionTest, TheCommandLineNamesEverySettingAndQuotesTheFile) {
       << text;
 }
 
+TEST_F(SessionTest, WhatWasSaidOfAMeshIsGoneWithIt) {
+  const std::filesystem::path flawed = folder / "flawed.off";
+  std::ofstream(flawed) << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n3 0 1 2\n3 1 3 2\n3 0 1 4\n";
+  do_and_wait(OpenFile{flawed});
+  ASSERT_FALSE(session.messages.empty());
+  open();
+  EXPECT_TRUE(session.messages.empty()) << last_message();
+}
+
+TEST_F(SessionTest, CopyingTheCommandLineOfARunThatLeftAnotherSaysWhatItLeavesOut) {
+  open();
+  run(4);
+  do_and_wait(CopyCommandLine{});
+  EXPECT_EQ(session.messages.back().kind, MessageKind::info) << last_message();
+  do_and_wait(Seek{2, {}});
+  SmoothingSettings settings = session.smoothing;
+  settings.mu_a = 0.7;
+  do_and_wait(SetSmoothing{settings, "Area"});
+  do_and_wait(model::Run{});
+  do_and_wait(CopyCommandLine{});
+  EXPECT_EQ(session.messages.back().kind, MessageKind::warning) << last_message();
+  EXPECT_NE(last_message().find("iteration 2"), std::string::npos) << last_message();
+}
+
 TEST_F(SessionTest, CommandsBeforeAMeshIsOpenDoNoHarm) {
   for (const Command& command :
        {Command(model::Run{}), Command(Step{}), Command(Pause{}), Command(Reset{}), Command(StepBack{}),
