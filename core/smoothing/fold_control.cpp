@@ -131,8 +131,9 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
     double limit = share(p);
     const bool too_sharp = !(angles.smallest_cot.at[i] <= problem_.worst_angles.smallest_cot) ||
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
-    const bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
+    bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
     if (problem_.treated[t] == 0) continue;
+    if (may_turn && !turned && cosines.at[i] < TurnLimit::kLittleTurned2) turned = faces_away(trial.to(), t);
     const auto cut = [&](Index triangle, double share) {
       for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, share});
     };
@@ -141,6 +142,11 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
     if (may_turn && !(all_are_checked && cosines.at[i] > turns_.folding_cosine(t)))
       turns_.for_turned_back(trial.to(), t, [&](Index triangle) { cut(triangle, 0.5); });
   }
+}
+
+bool FoldControl::faces_away(std::span<const Vec3> x, Index triangle) const {
+  const auto& [a, b, c] = problem_.triangles[triangle];
+  return turns_.faces_away(triangle, area_vector(x[a], x[b], x[c]), (x[a] + x[b] + x[c]) / 3);
 }
 
 std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {

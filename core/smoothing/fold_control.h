@@ -41,6 +41,7 @@ class FoldControl {
     double share;
   };
   void check(const Trial& trial, const BatchIds& ids, bool all_are_checked, std::vector<Cut>& cuts) const;
+  [[nodiscard]] bool faces_away(std::span<const Vec3> x, Index triangle) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
   std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);

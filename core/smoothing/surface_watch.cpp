@@ -80,8 +80,9 @@ SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> 
   if (!problem.plane_normal) at_the_start_ = ClosestPointIndex(start, problem.triangles);
 }
 
-/// Triangles that oppose the one of the start that is nearest to their centroids, and did not when the run
-/// began: one that did lies about a crease, or on the other side of something thin.
+/// Triangles that oppose the one of the start that is nearest to their centroids, though their initial
+/// normals do not: where these do, it lies about a crease, or on the other side of something thin. Steps that
+/// know the surface lead to none (TurnLimit).
 std::vector<Index> SurfaceWatch::facing_away(std::span<const Vec3> positions) const {
   if (problem_.plane_normal) return {};
   const auto area_at = [](std::span<const Vec3> x, const Triangle& t) {
@@ -95,7 +96,7 @@ std::vector<Index> SurfaceWatch::facing_away(std::span<const Vec3> positions) co
       const Vec3 centroid = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
       const Index beside = at_the_start_.closest(centroid, static_cast<Index>(i)).triangle;
       const Vec3 there = area_at(start_, problem_.triangles[beside]);
-      if (area_at(positions, t).dot(there) < 0 && area_at(start_, t).dot(there) > 0)
+      if (area_at(positions, t).dot(there) < 0 && problem_.initial_normals[i].dot(there) > 0)
         found[begin / kBlockSize].push_back(static_cast<Index>(i));
     }
   });

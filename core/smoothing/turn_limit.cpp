@@ -25,6 +25,10 @@ constexpr std::uint8_t kNever = 255;
 
 TurnLimit::TurnLimit(const SmoothingProblem& problem) : problem_(problem) {
   if (!applies()) return;
+  if (problem.surface)
+    surface_ = problem.surface->flat().get();
+  else if (problem.near)
+    surface_ = problem.near->surface.get();
   needed_.resize(problem.triangle_count());
   folding_cosines_.resize(problem.triangle_count());
   parallel_for_blocks(problem.triangle_count(), problem.threads, [&](std::size_t begin, std::size_t end) {
@@ -86,6 +90,15 @@ Folds TurnLimit::fold_between(Index t, const Vec3& area_of_t, Index u, const Vec
   folds.fresh = is_fresh(kKinds[0]) ? 1 : 0;
   folds.fresh_sharp = is_fresh(kKinds[1]) ? 1 : 0;
   return folds;
+}
+
+bool TurnLimit::faces_away(Index triangle, const Vec3& area, const Vec3& centroid) const {
+  if (surface_ == nullptr) return false;
+  const SurfacePoint beside = surface_->closest(centroid);
+  if (beside.triangle == kNone) return false;
+  const PreparedTriangle& there = surface_->prepared(beside.triangle);
+  const Vec3 normal = area_vector(there.a, there.b, there.c);
+  return area.dot(normal) < 0 && problem_.initial_normals[triangle].dot(normal) > 0;
 }
 
 Vec3 TurnLimit::area_at(std::span<const Vec3> x, Index triangle) const {

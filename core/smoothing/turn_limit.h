@@ -41,6 +41,12 @@ class TurnLimit {
   /// squared, with its sign.
   [[nodiscard]] double folding_cosine(Index triangle) const { return folding_cosines_[triangle]; }
 
+  /// Squared cosine of the turn up to which no triangle is looked at closer: 30 degrees.
+  static constexpr double kLittleTurned2 = 0.75;
+  /// Whether a triangle with this area vector and centroid faces away from the surface as it was, where that
+  /// is nearest to it, and its initial normal does not. False where no surface is known.
+  [[nodiscard]] bool faces_away(Index triangle, const Vec3& area, const Vec3& centroid) const;
+
   /// The fold between two triangles with these area vectors that share an edge.
   [[nodiscard]] Folds fold_between(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const;
   /// All folds at a triangle's edges with all vertices at `x`, except those to one neighbour.
@@ -72,6 +78,7 @@ class TurnLimit {
   [[nodiscard]] Vec3 area_at(std::span<const Vec3> x, Index triangle) const;
 
   const SmoothingProblem& problem_;
+  const ClosestPointIndex* surface_ = nullptr;
   std::vector<std::uint8_t> needed_;  // folds of either kind that a triangle has turned back with
   std::vector<double> folding_cosines_;
 };
