@@ -54,7 +54,7 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->excludes(mu);
   app.add_option("--exponent", spec.exponent,
                  "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
-                 "1 where squares would lower the mean of the smallest angles)")
+                 "1 where squares would lower the mean of the smallest angles and areas do not count more)")
       ->type_name("P");
   auto* reference =
       app.add_option(

@@ -1,5 +1,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
+#include <filesystem>
 #include <optional>
 
 #include "cli/checks.h"
@@ -49,6 +50,10 @@ class ViewCommand : public Command {
 
   int run(Console& console) override {
     for (const std::string& file : files_) check_readable(file);
+    for (const std::string& picture : {screenshot_, window_screenshot_}) {
+      if (!picture.empty() && std::filesystem::path(picture).extension() != ".png")
+        throw UsageError(picture + ": pictures are PNG files, named .png");
+    }
     if (!screenshot_.empty()) {
       take_screenshot(console);
       return kDone;

@@ -73,7 +73,8 @@ class Player {
 
   ScriptResult play() {
     std::ifstream file(options_.file);
-    if (!file) throw InputError(options_.file.string(), "", "cannot be read");
+    if (!file || std::filesystem::is_directory(options_.file))
+      throw InputError(options_.file.string(), "", "cannot be read");
     require_room(size_, options_.scale);
     frames(2);
     std::string line;
@@ -129,7 +130,16 @@ class Player {
     settle();
   }
 
+  // The editor tells its user, who opens one then; a script goes on as if it had done something.
+  void require_mesh(Words words) {
+    constexpr std::array<std::string_view, 7> kOfAMesh{"run",        "step", "seek",  "save",
+                                                       "save-trace", "fly",  "expect"};
+    if (!editor_.session().document && std::ranges::find(kOfAMesh, words.front()) != kOfAMesh.end())
+      throw UsageError(words.front() + ": no mesh is open");
+  }
+
   void obey(Words words) {
+    require_mesh(words);
     if (const auto command = parse_line(words, editor_.session(), folder_)) {
       execute(*command);
       if (words.front() == "vertex" || words.front() == "triangle") show_selection();
@@ -166,17 +176,20 @@ class Player {
 
   void screenshot(Words words) {
     settle();
-    write(words[1], editor_.picture());
+    const std::filesystem::path file = picture_file(words[1]);
+    render::write_png(file, editor_.picture());
+    result_.pictures.push_back(file);
   }
 
   void picture(Words words) {
-    editor_.ask(ui::SavePicture{pictures_ / words[1]});
+    editor_.ask(ui::SavePicture{picture_file(words[1])});
     result_.pictures.push_back(pictures_ / words[1]);
   }
 
-  void write(const std::string& name, const render::Image& image) {
-    render::write_png(pictures_ / name, image);
-    result_.pictures.push_back(pictures_ / name);
+  [[nodiscard]] std::filesystem::path picture_file(const std::string& name) const {
+    if (std::filesystem::path(name).extension() != ".png")
+      throw UsageError(name + ": pictures are PNG files, named .png");
+    return pictures_ / name;
   }
 
   void resize(Words words) {
@@ -240,9 +253,9 @@ class Player {
   // Predicates may ask for the arrays of the step: looking inside it brings them.
   std::string fault_of(const Predicate& predicate) {
     model::Session& session = editor_.session();
-    if (session.moving() != nullptr) return fault_of_motion(predicate);
+    const bool at_the_start = session.timeline.cursor.iteration == 0;
+    if (session.moving() != nullptr || at_the_start) return fault_of_state(predicate);
     const auto stage = session.timeline.cursor.stage;
-    if (session.timeline.cursor.iteration == 0) return "there is no step to iteration 0 to look at";
     if (!stage) execute(model::SetStage{model::Stage{}});
     const auto& step = session.inspection.step;
     const model::StepSummary* summary =
@@ -271,8 +284,8 @@ class Player {
     return holds ? std::string() : "does not hold: " + predicate.text();
   }
 
-  // What is known of a moment; of the way of single vertices in the step nothing is.
-  std::string fault_of_motion(const Predicate& predicate) {
+  // What is known of a moment, or of the mesh as opened; of the way of single vertices in a step nothing is.
+  std::string fault_of_state(const Predicate& predicate) {
     const model::Session& session = editor_.session();
     const auto positions = session.current->positions();
     const QualityReport& quality = session.current->quality();
@@ -289,7 +302,7 @@ class Player {
                      .triangles = session.document->mesh().triangles,
                      .inverted_at_start = session.original->quality().inverted,
                      .stop = session.timeline.cursor.iteration == session.timeline.last(),
-                     .time = session.moment().time};
+                     .time = session.moving() != nullptr ? session.moment().time : 0};
     return predicate.holds(now) ? std::string() : "does not hold: " + predicate.text();
   }
 

@@ -61,6 +61,12 @@ TEST_F(ScriptTest, AnExpectationThatDoesNotHoldIsToldWithItsLine) {
   EXPECT_NE(result.failures[0].find("line 3"), std::string::npos) << result.failures[0];
 }
 
+TEST_F(ScriptTest, TheMeshAsOpenedCanBeLookedAt) {
+  (void)folder.make_square();
+  EXPECT_TRUE(play("open square.off\nexpect iteration == 0 && min_angle > 0\n").failures.empty());
+  EXPECT_EQ(play("open square.off\nexpect min_angle > 59\n").failures.size(), 1U);
+}
+
 TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   (void)folder.make_square();
   EXPECT_NE(complaint("open square.off\njump\n").find("line 2: \"jump\""), std::string::npos);
@@ -81,6 +87,8 @@ TEST_F(ScriptTest, WhatIsNotThereIsRefusedWithItsLine) {
     EXPECT_NE(complaint(open + wrong + "\n").find("a.script: line 4: "), std::string::npos) << wrong;
   EXPECT_EQ(complaint(open + "seek 3\nseek 0\nview range=current\n"), "");
   EXPECT_NE(complaint("vertex 0\n").find("none at all"), std::string::npos);
+  EXPECT_NE(complaint("run 5\n").find("no mesh is open"), std::string::npos);
+  EXPECT_NE(complaint("screenshot a.jpg\n").find(".png"), std::string::npos);
   const std::string settings = complaint(open + "set --mu banana\n");
   EXPECT_NE(settings.find("--mu banana"), std::string::npos) << settings;
 }
