@@ -128,9 +128,9 @@ void Executor::operator()(const CopyCommandLine& /*command*/) {
   if (branch == nullptr || !branch->parent || branch->start == 0) return;
   const Branch& before = s_.timeline.branches[*branch->parent];
   if (!before.from_file && before.settings == branch->settings) return;
-  say(MessageKind::warning,
-      "What was copied does not say that this run left another one at iteration " +
-          std::to_string(branch->start) + ", where that had other settings: a saved run does.");
+  say(MessageKind::warning, "What was copied does not say that this run left another one at iteration " +
+                                std::to_string(branch->start) +
+                                ", where that had other settings: a saved run does.");
 }
 
 void Executor::operator()(const Say& command) {

@@ -41,8 +41,8 @@ class TurnLimit {
   /// squared, with its sign.
   [[nodiscard]] double folding_cosine(Index triangle) const { return folding_cosines_[triangle]; }
 
-  /// Squared cosine of the turn up to which no triangle is looked at closer: 30 degrees.
-  static constexpr double kLittleTurned2 = 0.75;
+  /// Squared cosine of the turn up to which no triangle is looked at closer: 20 degrees.
+  static constexpr double kLittleTurned2 = 0.883;
   /// Whether a triangle with this area vector and centroid faces away from the surface as it was, where that
   /// is nearest to it, and its initial normal does not. False where no surface is known.
   [[nodiscard]] bool faces_away(Index triangle, const Vec3& area, const Vec3& centroid) const;

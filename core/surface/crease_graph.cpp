@@ -143,7 +143,8 @@ class GapBridge {
       all.insert(all.end(), gap.begin(), gap.end());
     }
     std::ranges::sort(all, {}, &FeatureEdge::corner);
-    all.erase(std::ranges::unique(all, {}, &FeatureEdge::corner).begin(), all.end());
+    const auto same = [](const FeatureEdge& a, const FeatureEdge& b) { return a.corner == b.corner; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
     return all;
   }
 
