@@ -105,8 +105,7 @@ class AdvectCommand : public Command {
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
     if (output_.empty() == resume_.empty()) throw UsageError("advect: give --output DIR or --resume STATE");
-    if (!figure_.empty() && std::filesystem::path(figure_).extension() != ".png")
-      throw UsageError(figure_ + ": pictures are PNG files, named .png");
+    if (!figure_.empty()) render::require_png_name(figure_);
     check_outputs({{{"--figure", figure_}}}, {input_, resume_});
     return resume_.empty() ? begin(console) : resume(console);
   }

@@ -184,8 +184,7 @@ class BenchmarkCommand : public Command {
 
   void check_picture() const {
     if (picture_.empty()) return;
-    if (std::filesystem::path(picture_).extension() != ".png")
-      throw UsageError(picture_ + ": pictures are PNG files, named .png");
+    render::require_png_name(picture_);
     check_writable(picture_);
   }
 

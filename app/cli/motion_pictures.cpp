@@ -69,7 +69,8 @@ render::Image MotionPictures::draw(const TriangleMesh& mesh, const std::string& 
   subject.label = caption;
   view::Depiction depiction = view::depict(view, coloring, subject);
   depiction.scene.legend = view::legend_of(view, coloring, areas);
-  const render::FitOptions fitting{.right = render::legend_share(depiction.scene, view.size)};
+  const render::FitOptions fitting{.right = render::legend_share(depiction.scene, view.size),
+                                   .bottom = render::caption_share(depiction.scene, view.size)};
   const auto context = render::OffscreenContext::create(render::ContextKind::osmesa);
   render::Renderer renderer(context->loader());
   renderer.draw(depiction.scene, render::parse_camera(camera_, farthest_, view.size, fitting), view.size);

@@ -52,9 +52,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option("--weights", spec.weights, "Weights of the shape and the area term, instead of --mu")
       ->type_name("S,A")
       ->excludes(mu);
-  app.add_option("--exponent", spec.exponent,
-                 "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
-                 "1 where squares would lower the mean of the smallest angles and areas do not count more)")
+  app.add_option(
+         "--exponent", spec.exponent,
+         "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
+         "1 where squares would lower the mean of the smallest angles, unless areas count more than angles)")
       ->type_name("P");
   auto* reference =
       app.add_option(

@@ -73,15 +73,15 @@ class RenderCommand : public Command {
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
     view::View view = options_.read();
-    if (std::filesystem::path(output_).extension() != ".png")
-      throw UsageError(output_ + ": pictures are PNG files, named .png");
+    render::require_png_name(output_);
     if (!files_.empty()) view.meshes = named_like(files_, view.meshes);
     if (view.meshes.empty()) throw UsageError("there is no mesh to draw: give its file");
-    std::vector<std::string> read = mesh_files(view);
+    const std::vector<std::string> files = mesh_files(view);
+    std::vector<std::string> read = files;
     if (!view.against.empty()) read.push_back(find_file(view.against, options_.source()));
     check_outputs({{{"--output", output_}, {"--save-view", view_file_}}}, read);
     std::vector<TriangleMesh> meshes;
-    for (const std::string& file : mesh_files(view)) meshes.push_back(read_input(console, file));
+    for (const std::string& file : files) meshes.push_back(read_input(console, file));
     std::optional<TriangleMesh> against;
     if (!view.against.empty()) against = read_input(console, find_file(view.against, options_.source()));
     view::Exhibits exhibits;

@@ -169,12 +169,8 @@ class SmoothCommand : public Command {
  private:
   /// Before the long work, not after it. The mesh may be written to where it came from.
   void check_files() const {
-    std::vector<std::string> read;
-    for (const TraceResource& file : run_.resources()) read.push_back(file.path);
-    check_outputs({{{"--output", output_}}}, read);
-    read.push_back(input_);
-    check_outputs({{{"--report", report_}, {"--trace", trace_}}}, read);
-    check_outputs({{{"--output", output_}, {"--report", report_}, {"--trace", trace_}}}, {});
+    check_outputs({{{"--output", output_}, {"--report", report_}, {"--trace", trace_}}}, run_.files());
+    check_outputs({{{"--report", report_}, {"--trace", trace_}}}, {input_});
   }
 
   /// Why the result of an unguarded run may not be written; a guarded one has no fault.
@@ -216,7 +212,7 @@ class SmoothCommand : public Command {
           return goes_on;
         },
         [&](const RunPart& part, std::span<const Vec3> positions) {
-          if (begins_again(part, recorder.trace())) watch_.begin_again(console);
+          if (part.begins_run() && !recorder.trace().iterations.empty()) watch_.begin_again(console);
           recorder.begin_part(part, positions);
         });
     watch_.finish(console, recorder.trace());

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -122,17 +123,17 @@ std::vector<std::string> SmoothRun::words(const TriangleMesh& mesh) const {
   return words;
 }
 
-std::vector<TraceResource> SmoothRun::resources() const {
-  std::vector<TraceResource> files;
-  for (const CLI::Option* option : options_) {
-    for (const std::string& value : option->results())
-      if (is_file(value)) files.push_back({value, hash_of(read_bytes(value))});
-  }
-  return files;
+std::vector<std::string> SmoothRun::files() const {
+  std::vector<std::string> found;
+  for (const CLI::Option* option : options_)
+    std::ranges::copy_if(option->results(), std::back_inserter(found), is_file);
+  return found;
 }
 
-bool begins_again(const RunPart& part, const Trace& trace) {
-  return part.done == 0 && !part.polish && !trace.iterations.empty();
+std::vector<TraceResource> SmoothRun::resources() const {
+  std::vector<TraceResource> found;
+  for (const std::string& file : files()) found.push_back({file, hash_of(read_bytes(file))});
+  return found;
 }
 
 SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, TriangleMesh& mesh,
@@ -150,7 +151,7 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
     Progress progress(console, "smoothing");
     const auto start = std::chrono::steady_clock::now();
     const auto begin_part = [&](const RunPart& part, std::span<const Vec3> positions) {
-      if (part.done == 0 && !part.polish) ++outcome.attempts;
+      if (part.begins_run()) ++outcome.attempts;
       if (part_observer) part_observer(part, positions);
     };
     const auto show = [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {

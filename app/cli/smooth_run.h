@@ -25,9 +25,6 @@ struct SmoothOutcome : UnguardedResult {
   double seconds = 0;     ///< of all attempts, set-up and polish, without reading and writing
 };
 
-/// Whether a part begins a run anew, of which iterations are there already.
-[[nodiscard]] bool begins_again(const RunPart& part, const Trace& trace);
-
 /// The options of `smooth` that decide what happens to a mesh: all but its files and what is printed. The
 /// same words do the same again: a trace keeps them.
 class SmoothRun {
@@ -42,7 +39,9 @@ class SmoothRun {
   void check() const;
   /// The typed options as words, for a trace of this mesh: what its file marks stands there as pins.
   [[nodiscard]] std::vector<std::string> words(const TriangleMesh& mesh) const;
-  /// Files that the typed options name, with their hashes now. Throws InputError.
+  /// Files that the typed options name.
+  [[nodiscard]] std::vector<std::string> files() const;
+  /// The same with their hashes now. Throws InputError.
   [[nodiscard]] std::vector<TraceResource> resources() const;
   void set_threads(unsigned threads) { problem_.threads = threads; }
 

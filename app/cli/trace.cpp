@@ -25,22 +25,6 @@
 namespace isorelax::cli {
 namespace {
 
-std::string position_text(const Vec3& p) {
-  std::string text = "(";
-  for (const double x : p) {
-    if (text.size() > 1) text += ", ";
-    append_number(text, x);
-  }
-  return text + ")";
-}
-
-std::string parting_text(const TraceParting& parting) {
-  return "iteration " + std::to_string(parting.iteration) + ", vertex " + std::to_string(parting.vertex) +
-         ": " + position_text(parting.first) + " against " + position_text(parting.second) + "; " +
-         std::to_string(parting.vertices) + " vertices differ there, by up to " +
-         number_text(parting.largest);
-}
-
 /// A right-aligned table of the iterations, one line each.
 std::string iteration_table(const Trace& trace) {
   std::string text =

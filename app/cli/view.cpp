@@ -1,6 +1,5 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
-#include <filesystem>
 #include <optional>
 
 #include "cli/checks.h"
@@ -50,10 +49,8 @@ class ViewCommand : public Command {
 
   int run(Console& console) override {
     for (const std::string& file : files_) check_readable(file);
-    for (const std::string& picture : {screenshot_, window_screenshot_}) {
-      if (!picture.empty() && std::filesystem::path(picture).extension() != ".png")
-        throw UsageError(picture + ": pictures are PNG files, named .png");
-    }
+    for (const std::string& picture : {screenshot_, window_screenshot_})
+      if (!picture.empty()) render::require_png_name(picture);
     if (!screenshot_.empty()) {
       take_screenshot(console);
       return kDone;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "compare/image_metrics.h"
-#include "mesh/triangle_mesh.h"
 
 namespace isorelax::compare {
 
@@ -58,9 +57,6 @@ enum class Detail : std::uint8_t { figures, pictures };
 
 /// Test results in JUnit's XML.
 [[nodiscard]] std::string junit_xml(const std::vector<Case>& cases);
-
-/// A point as text: "(1.5, 0, 2)".
-[[nodiscard]] std::string place_text(const Vec3& point);
 
 /// Six significant digits, no trailing zeros.
 [[nodiscard]] std::string number_text(double value);

@@ -13,6 +13,11 @@
 namespace isorelax::compare {
 namespace {
 
+/// "(1.5, 0, 2)".
+std::string place(const Vec3& p) {
+  return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")";
+}
+
 bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
   return a.positions.size() == b.positions.size() && a.triangles == b.triangles;
 }
@@ -89,8 +94,8 @@ void compare_moved(const TriangleMesh& a, const TriangleMesh& b, double diagonal
     result.notes.emplace_back("No vertex moved.");
   else
     result.notes.push_back("Vertex " + std::to_string(moves.vertex) + " moved farthest: from " +
-                           place_text(a.positions[moves.vertex]) + " to " +
-                           place_text(b.positions[moves.vertex]) + ".");
+                           place(a.positions[moves.vertex]) + " to " + place(b.positions[moves.vertex]) +
+                           ".");
   result.verdicts.push_back({"max-displacement", "largest displacement of a vertex, of the diagonal",
                              moves.max / diagonal, limits.displacement, false,
                              moves.max / diagonal <= limits.displacement});
@@ -114,8 +119,8 @@ void compare_surfaces(const TriangleMesh& a, const TriangleMesh& b, double diago
       {"hausdorff_b_to_a", "Hausdorff distance from B to A, of the diagonal", back.distance / diagonal, {}});
   result.figures.push_back({"hausdorff", "Hausdorff distance, of the diagonal", most, {}});
   result.notes.emplace_back("The meshes have different triangles: only their surfaces are compared.");
-  result.notes.push_back("Farthest from B is " + place_text(there.point) + " on A; farthest from A is " +
-                         place_text(back.point) + " on B.");
+  result.notes.push_back("Farthest from B is " + place(there.point) + " on A; farthest from A is " +
+                         place(back.point) + " on B.");
   result.verdicts.push_back({"max-deviation", "largest distance between the surfaces, of the diagonal", most,
                              limits.deviation, false, most <= limits.deviation});
 }

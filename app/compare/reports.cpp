@@ -99,10 +99,6 @@ std::string reason(const Case& one) {
 
 }  // namespace
 
-std::string place_text(const Vec3& point) {
-  return "(" + number_text(point.x()) + ", " + number_text(point.y()) + ", " + number_text(point.z()) + ")";
-}
-
 std::string number_text(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "none" : value > 0 ? "infinite" : "-infinite";
   std::array<char, 40> text{};

@@ -40,10 +40,7 @@ void add_parting(const TraceDifference& found, Case& result) {
   result.figures.push_back({"parting_vertex", "First vertex that differs there", double(at.vertex), {}});
   result.figures.push_back(
       {"parting_vertices", "Vertices that differ there", static_cast<double>(at.vertices), {}});
-  result.notes.push_back("They part at iteration " + std::to_string(at.iteration) + ", vertex " +
-                         std::to_string(at.vertex) + ": " + place_text(at.first) + " against " +
-                         place_text(at.second) + "; " + std::to_string(at.vertices) +
-                         " vertices differ there, by up to " + number_text(at.largest) + ".");
+  result.notes.push_back("They part at " + parting_text(at) + ".");
 }
 
 }  // namespace

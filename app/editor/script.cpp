@@ -182,13 +182,13 @@ class Player {
   }
 
   void picture(Words words) {
-    editor_.ask(ui::SavePicture{picture_file(words[1])});
-    result_.pictures.push_back(pictures_ / words[1]);
+    const std::filesystem::path file = picture_file(words[1]);
+    editor_.ask(ui::SavePicture{file});
+    result_.pictures.push_back(file);
   }
 
   [[nodiscard]] std::filesystem::path picture_file(const std::string& name) const {
-    if (std::filesystem::path(name).extension() != ".png")
-      throw UsageError(name + ": pictures are PNG files, named .png");
+    render::require_png_name(name);
     return pictures_ / name;
   }
 

@@ -51,6 +51,9 @@ using PictureTexts = std::map<std::string, std::string>;
 /// and texts give the same bytes.
 std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& texts = {});
 
+/// Throws UsageError unless a file is named .png: no other kind of picture is written.
+void require_png_name(const std::filesystem::path& path);
+
 /// Writes a PNG file whole or not at all. Throws OutputError.
 void write_png(const std::filesystem::path& path, const Image& image, const PictureTexts& texts = {});
 

@@ -114,6 +114,10 @@ std::vector<std::uint8_t> encode_animated_png(const Animation& animation, const 
   return join_png(chunks);
 }
 
+void require_png_name(const std::filesystem::path& path) {
+  if (path.extension() != ".png") throw UsageError(path.string() + ": pictures are PNG files, named .png");
+}
+
 void write_png(const std::filesystem::path& path, const Image& image, const PictureTexts& texts) {
   const std::vector<std::uint8_t> bytes = encode_png(image, texts);
   write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -89,7 +89,7 @@ bool AngleRing::is_upright(const Vec3& at) {
     constexpr double kLeast = TurnLimit::kLeastCosine * TurnLimit::kLeastCosine;
     if (!(along > 0 && along * along > kLeast * area.squaredNorm())) return false;
     if (along * along < TurnLimit::kLittleTurned2 * area.squaredNorm() &&
-        turns_.faces_away(triangles_[i], area, (at + sides_[i].a + sides_[i].b) / 3))
+        turns_.faces_away(triangles_[i], {at, sides_[i].a, sides_[i].b}))
       return false;
   }
   return !turns_.applies() || !turns_back();

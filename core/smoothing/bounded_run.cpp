@@ -228,23 +228,25 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
   }
 }
 
-/// `run_from` with the exponent asked for, or the better one of 2 and 1.
+/// `run_from` with the exponent asked for, or the better one of 2 and 1 for what came in.
 BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const Vec3> surface,
-                                     double mean_of_input, const ProblemOptions& options,
+                                     std::span<const Vec3> input, const ProblemOptions& options,
                                      const Attempts& attempts) {
   const bool is_about_angles = options.weights.area <= options.weights.shape;
   if (options.exponent || !is_about_angles) return run_from(positions, surface, options, attempts);
   const std::vector<Vec3> original(positions.begin(), positions.end());
-  const auto mean = [&] { return mean_of_smallest_angles(positions, attempts.triangles, options.threads); };
+  const auto mean = [&](std::span<const Vec3> x) {
+    return mean_of_smallest_angles(x, attempts.triangles, options.threads);
+  };
   BoundedResult result = run_from(positions, surface, options, attempts);
-  const double with_squares = mean();
-  if (with_squares >= mean_of_input - kSameMean || result.run.stopped == StopReason::cancelled) return result;
+  const double with_squares = mean(positions);
+  if (with_squares >= mean(input) - kSameMean || result.run.stopped == StopReason::cancelled) return result;
   ProblemOptions linear = options;
   linear.exponent = 1;
   std::copy(original.begin(), original.end(), positions.begin());
   result = run_from(positions, surface, linear, attempts);
   if (result.run.stopped == StopReason::cancelled) return result;
-  if (mean() <= with_squares + kSameMean) {
+  if (mean(positions) <= with_squares + kSameMean) {
     std::copy(original.begin(), original.end(), positions.begin());
     return run_from(positions, surface, options, attempts);
   }
@@ -262,9 +264,8 @@ BoundedResult untangle_and_run(std::span<Vec3> positions, const ProblemOptions& 
   auto [untangled, notes] = untangle_start(positions, triangles, problem_options, limit);
   const bool moved = !untangled.moved.empty();
   const std::vector<Vec3> start(positions.begin(), positions.end());
-  BoundedResult result = run_with_some_exponent(
-      positions, limit.max ? input : start,
-      mean_of_smallest_angles(input, triangles, problem_options.threads), problem_options, attempts);
+  BoundedResult result =
+      run_with_some_exponent(positions, limit.max ? input : start, input, problem_options, attempts);
   // Triangles upside down in a plane cover what the sound ones cover as well.
   const auto topology = [&] { return Topology(triangles, static_cast<Index>(positions.size())); };
   if (moved && !plane_normal(input, triangles, topology(), problem_options.threads))

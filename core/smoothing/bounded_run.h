@@ -47,6 +47,9 @@ struct RunPart {
   double exponent = kDefaultExponent;
   bool polish = false;  ///< made by `make_polish`, not by the SmootherFactory
   SurfaceHolds holds;
+
+  /// Whether a run begins here, the first or another attempt.
+  [[nodiscard]] bool begins_run() const { return done == 0 && !polish; }
 };
 
 /// Told of each part before its first step, with the positions there. One that begins where an earlier one
@@ -94,9 +97,10 @@ UntangledStart untangle_start(std::span<Vec3> positions, std::span<const Triangl
 /// (wider_limit_pays) is done again from the start under the wider one. Should the result be farther than the
 /// limit all the same, the run is done again with steps that keep the surface nearer, and at last with
 /// vertices held still: in the end the limit holds, if with everything held. So it goes where a triangle lies
-/// upside down (inverted_triangles) that did not before. Where only the polish did that, only it is done
-/// again. Where no exponent is asked for, it is 2, or 1 where that would lower the mean of the triangles'
-/// smallest angles. Throws as make_problem.
+/// upside down (inverted_triangles) or faces away (faces_away) that did not before. Where only the polish did
+/// that, only it is done again. Where no exponent is asked for, it is 2, or 1 where 2 would make the mean of
+/// the triangles' smallest angles smaller than it came in and 1 makes it larger than 2 does, unless areas
+/// count more than angles. Throws as make_problem.
 ///
 /// A mesh with inverted triangles is untangled first (untangle_start) and smoothed from there. A stated limit
 /// holds for both together; what untangling alone takes is not held against the automatic one. A mesh of

@@ -146,7 +146,7 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
 
 bool FoldControl::faces_away(std::span<const Vec3> x, Index triangle) const {
   const auto& [a, b, c] = problem_.triangles[triangle];
-  return turns_.faces_away(triangle, area_vector(x[a], x[b], x[c]), (x[a] + x[b] + x[c]) / 3);
+  return turns_.faces_away(triangle, {x[a], x[b], x[c]});
 }
 
 std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {

@@ -5,10 +5,10 @@
 
 #include "mesh/error.h"
 #include "smoothing/initial_normals.h"
+#include "smoothing/outline.h"
 #include "smoothing/renumbered_problem.h"
 #include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
-#include "smoothing/surface_limit.h"
 #include "surface/deviation.h"
 
 namespace isorelax {

@@ -73,7 +73,7 @@ enum class Solver : std::uint8_t {
               ///< with steps of one vertex after another (make_one_by_one) where many are at the limit
   jacobi,     ///< the paper's
   newton,
-  lbfgs,
+  lbfgs,  ///< make_lbfgs; where it finds no step, one vertex after another
 };
 /// The solver with its default options. Keeps a reference to the problem.
 std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver solver,

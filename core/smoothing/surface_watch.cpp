@@ -6,7 +6,8 @@
 
 #include "mesh/parallel.h"
 #include "quality/inverted.h"
-#include "smoothing/surface_limit.h"
+#include "smoothing/outline.h"
+#include "smoothing/turn_limit.h"
 
 namespace isorelax {
 namespace {
@@ -77,26 +78,21 @@ SurfaceWatch::SurfaceWatch(std::span<const Vec3> surface, std::span<const Vec3> 
       start_(start),
       problem_(problem),
       inverted_(inverted_triangles(start, problem.triangles, problem.topology, problem.threads)) {
-  if (!problem.plane_normal) at_the_start_ = ClosestPointIndex(start, problem.triangles);
+  if (problem.surface)
+    at_the_start_ = problem.surface->flat();
+  else if (!problem.plane_normal)
+    at_the_start_ = std::make_shared<ClosestPointIndex>(start, problem.triangles);
 }
 
-/// Triangles that oppose the one of the start that is nearest to their centroids, though their initial
-/// normals do not: where these do, it lies about a crease, or on the other side of something thin. Steps that
-/// know the surface lead to none (TurnLimit).
+/// Steps that know the surface lead to few of them (TurnLimit).
 std::vector<Index> SurfaceWatch::facing_away(std::span<const Vec3> positions) const {
   if (problem_.plane_normal) return {};
-  const auto area_at = [](std::span<const Vec3> x, const Triangle& t) {
-    return area_vector(x[t[0]], x[t[1]], x[t[2]]);
-  };
   std::vector<std::vector<Index>> found(block_count(problem_.triangle_count()));
   parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Triangle& t = problem_.triangles[i];
-      if (problem_.treated[i] == 0) continue;
-      const Vec3 centroid = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
-      const Index beside = at_the_start_.closest(centroid, static_cast<Index>(i)).triangle;
-      const Vec3 there = area_at(start_, problem_.triangles[beside]);
-      if (area_at(positions, t).dot(there) < 0 && problem_.initial_normals[i].dot(there) > 0)
+      const auto& [a, b, c] = problem_.triangles[i];
+      if (problem_.treated[i] != 0 &&
+          faces_away(*at_the_start_, problem_.initial_normals[i], {positions[a], positions[b], positions[c]}))
         found[begin / kBlockSize].push_back(static_cast<Index>(i));
     }
   });
@@ -156,16 +152,13 @@ bool SurfaceWatch::covers_the_same(std::span<const Vec3> after, std::span<const 
 
 /// Whether the border only moved along its straight stretches, whose ends stayed.
 bool SurfaceWatch::keeps_border(std::span<const Vec3> after, double rounding) const {
-  const auto goes_straight_between = [&](std::span<const Vec3> x, Index before, Index v, Index behind) {
-    return runs_straight(x[before], x[v], x[behind], rounding);
-  };
   for (Index v = 0; v < start_.size(); ++v) {
     if (start_[v] == after[v] || !problem_.topology.is_boundary(v)) continue;
+    if (changes_outline(problem_, start_, v, rounding)) return false;
     const auto slides = problem_.border.find(v);
     if (slides == problem_.border.end()) return false;
     const auto& [before, behind] = slides->second;
-    if (!goes_straight_between(start_, before, v, behind) || !goes_straight_between(after, before, v, behind))
-      return false;
+    if (!runs_straight(after[before], after[v], after[behind], rounding)) return false;
   }
   return true;
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "smoothing/problem.h"
-#include "surface/closest_point.h"
 #include "surface/deviation.h"
 
 namespace isorelax {
@@ -46,8 +45,8 @@ class SurfaceWatch {
 
   std::span<const Vec3> surface_, start_;
   const SmoothingProblem& problem_;
-  std::vector<Index> inverted_;     // at the start
-  ClosestPointIndex at_the_start_;  // of a surface that is not flat
+  std::vector<Index> inverted_;                            // at the start
+  std::shared_ptr<const ClosestPointIndex> at_the_start_;  // of a surface that is not flat
 };
 
 }  // namespace isorelax

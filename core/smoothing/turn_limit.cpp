@@ -23,6 +23,16 @@ constexpr std::uint8_t kNever = 255;
 
 }  // namespace
 
+bool faces_away(const ClosestPointIndex& surface, const Vec3& initial_normal,
+                const std::array<Vec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const SurfacePoint beside = surface.closest((a + b + c) / 3);
+  if (beside.triangle == kNone) return false;
+  const PreparedTriangle& there = surface.prepared(beside.triangle);
+  const Vec3 normal = area_vector(there.a, there.b, there.c);
+  return area_vector(a, b, c).dot(normal) < 0 && initial_normal.dot(normal) > 0;
+}
+
 TurnLimit::TurnLimit(const SmoothingProblem& problem) : problem_(problem) {
   if (!applies()) return;
   if (problem.surface)
@@ -92,13 +102,8 @@ Folds TurnLimit::fold_between(Index t, const Vec3& area_of_t, Index u, const Vec
   return folds;
 }
 
-bool TurnLimit::faces_away(Index triangle, const Vec3& area, const Vec3& centroid) const {
-  if (surface_ == nullptr) return false;
-  const SurfacePoint beside = surface_->closest(centroid);
-  if (beside.triangle == kNone) return false;
-  const PreparedTriangle& there = surface_->prepared(beside.triangle);
-  const Vec3 normal = area_vector(there.a, there.b, there.c);
-  return area.dot(normal) < 0 && problem_.initial_normals[triangle].dot(normal) > 0;
+bool TurnLimit::faces_away(Index triangle, const std::array<Vec3, 3>& corners) const {
+  return surface_ != nullptr && isorelax::faces_away(*surface_, problem_.initial_normals[triangle], corners);
 }
 
 Vec3 TurnLimit::area_at(std::span<const Vec3> x, Index triangle) const {

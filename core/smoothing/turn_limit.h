@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,17 @@ struct Folds {
   [[nodiscard]] bool any() const { return all > 0; }
 };
 
+/// Whether a triangle faces away from the surface as it was, where that is nearest to its centroid, and its
+/// initial normal does not: where that does, it lies about a crease, or on the other side of something thin.
+[[nodiscard]] bool faces_away(const ClosestPointIndex& surface, const Vec3& initial_normal,
+                              const std::array<Vec3, 3>& corners);
+
 /// How far the triangles of a curved surface may turn: none by more than 60 degrees from its normal at the
 /// start, and none back from its neighbours, with a fresh fold of over 149 degrees, or with folds at two
 /// edges, or at its only one, of which one is fresh. Triangles that count as upside down have such folds, and
 /// so have patches of one or two that count as folded over (inverted.h, folded_patches.h), whose limits are
-/// 120 and 150 degrees. What had turned back at the start may do what it likes.
+/// 120 and 150 degrees. What had turned back at the start may do what it likes. None that has turned by more
+/// than kLittleTurned2 allows faces away.
 class TurnLimit {
  public:
   /// Cosine of the largest turn of a triangle.
@@ -43,9 +50,8 @@ class TurnLimit {
 
   /// Squared cosine of the turn up to which no triangle is looked at closer: 20 degrees.
   static constexpr double kLittleTurned2 = 0.883;
-  /// Whether a triangle with this area vector and centroid faces away from the surface as it was, where that
-  /// is nearest to it, and its initial normal does not. False where no surface is known.
-  [[nodiscard]] bool faces_away(Index triangle, const Vec3& area, const Vec3& centroid) const;
+  /// The same of the problem's triangle with these corners; false where no surface is known.
+  [[nodiscard]] bool faces_away(Index triangle, const std::array<Vec3, 3>& corners) const;
 
   /// The fold between two triangles with these area vectors that share an edge.
   [[nodiscard]] Folds fold_between(Index t, const Vec3& area_of_t, Index u, const Vec3& area_of_u) const;

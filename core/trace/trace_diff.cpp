@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/text_out.h"
 #include "trace/trace_parts.h"
 
 namespace isorelax {
@@ -39,6 +40,15 @@ void compare_parts(const Trace& first, const Trace& second, std::vector<TraceSet
 }
 
 }  // namespace
+
+std::string parting_text(const TraceParting& parting) {
+  const auto place = [](const Vec3& p) {
+    return "(" + digits_of(p.x()) + ", " + digits_of(p.y()) + ", " + digits_of(p.z()) + ")";
+  };
+  return "iteration " + std::to_string(parting.iteration) + ", vertex " + std::to_string(parting.vertex) +
+         ": " + place(parting.first) + " against " + place(parting.second) + "; " +
+         std::to_string(parting.vertices) + " vertices differ there, by up to " + digits_of(parting.largest);
+}
 
 bool TraceDifference::none() const {
   return same_triangles && same_length && !parting;

@@ -36,6 +36,9 @@ struct TraceDifference {
   bool same_length = false;
 };
 
+/// Where two runs part, as words; coordinates with all digits, in which they may differ last.
+[[nodiscard]] std::string parting_text(const TraceParting& parting);
+
 /// Compares two recorded runs. Throws Error for a damaged delta.
 [[nodiscard]] TraceDifference compare_traces(const Trace& first, const Trace& second);
 

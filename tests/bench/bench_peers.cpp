@@ -129,7 +129,7 @@ Result ours(const std::string& name, const TriangleMesh& mesh, const Topology& t
       polish,
       [&](const RunPart& part, std::span<const Vec3>) {
         // A run done again under a wider limit was sound; one that is to keep nearer was not.
-        if (part.done == 0 && part.holds.distance <= distance) moments.clear();
+        if (part.begins_run() && part.holds.distance <= distance) moments.clear();
         distance = part.holds.distance;
       });
   result.seconds = watch.seconds();

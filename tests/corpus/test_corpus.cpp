@@ -10,6 +10,7 @@
 #include "quality/report.h"
 #include "smoothing/bounded_run.h"
 #include "smoothing/polish.h"
+#include "smoothing/turn_limit.h"
 #include "surface/feature_edges.h"
 
 // Smooths real meshes as `isorelax smooth IN -o OUT --iterations 100` does, and asks what anybody
@@ -95,6 +96,20 @@ TEST_P(Corpus, NoEdgeFoldsThatDidNot) {
     if (turn(s.before) < 150 && turn(s.after) > 150) ++folded;
   }
   EXPECT_EQ(folded, 0U);
+}
+
+TEST_P(Corpus, NoTriangleFacesAwayFromTheSurfaceBesideIt) {
+  const Smoothed& s = smoothed();
+  if (s.problem.plane_normal || !s.result.untangled.moved.empty()) return;  // a run from another surface
+  const ClosestPointIndex surface(s.before.positions, s.before.triangles);
+  std::size_t away = 0;
+  for (Index t = 0; t < s.after.triangle_count(); ++t) {
+    const auto& [a, b, c] = s.after.triangles[t];
+    const std::vector<Vec3>& x = s.after.positions;
+    if (s.problem.treated[t] != 0 && faces_away(surface, s.problem.initial_normals[t], {x[a], x[b], x[c]}))
+      ++away;
+  }
+  EXPECT_EQ(away, 0U);
 }
 
 TEST_P(Corpus, NoTriangleTurnsItsBack) {

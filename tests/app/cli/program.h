@@ -74,4 +74,12 @@ inline void expect_one_error_line(const Outcome& outcome) {
   EXPECT_EQ(outcome.out, "");
 }
 
+/// A mistake of whoever typed these arguments, told in one line.
+inline void expect_refused(const std::string& arguments) {
+  SCOPED_TRACE(arguments);
+  const Outcome outcome = run_program(arguments);
+  EXPECT_EQ(outcome.status, 2);
+  expect_one_error_line(outcome);
+}
+
 }  // namespace isorelax::test

@@ -42,11 +42,8 @@ TEST(RenderCommand, RefusesSizesAndFilesItCannotDraw) {
   const Workspace workspace;
   const std::string render = "render " + workspace.write("t.off", kTriangle) + " -o ";
   for (const std::string& rest :
-       {workspace.path("a.jpg"), workspace.path("a.png") + " --size 1000000x1000000"}) {
-    const Outcome outcome = run_program(render + rest);
-    EXPECT_EQ(outcome.status, 2) << rest;
-    expect_one_error_line(outcome);
-  }
+       {workspace.path("a.jpg"), workspace.path("a.png") + " --size 1000000x1000000"})
+    expect_refused(render + rest);
 }
 
 TEST(QualityCommand, ListsTheWorstTrianglesFirst) {
@@ -236,11 +233,7 @@ TEST(Statuses, WrongUsageIsTwo) {
       "generate sphere --vertices 3 -o " + workspace.path("x.off"),
       "generate cube --vertices 9 --triangles 9 -o " + workspace.path("x.off"),
       "generate cube -o " + workspace.path("x.unknown")};
-  for (const std::string& arguments : wrong) {
-    const Outcome outcome = run_program(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    expect_one_error_line(outcome);
-  }
+  for (const std::string& arguments : wrong) expect_refused(arguments);
   EXPECT_FALSE(std::filesystem::exists(workspace.path("x.off")));
 }
 
@@ -300,7 +293,7 @@ TEST(TraceCommand, ShowsExportsComparesAndReplaysARun) {
       run_program("compare --json " + trace + " " + workspace.path("short.trace") + " --report " + page);
   EXPECT_EQ(shorter.status, 1);
   EXPECT_EQ(Json::parse(shorter.out)["common_iterations"], 5);
-  EXPECT_NE(contents(page).find("12"), std::string::npos);
+  EXPECT_NE(contents(page).find("one run has more iterations"), std::string::npos);
   EXPECT_EQ(run_program("compare " + trace + " " + in).status, 2);
   ASSERT_EQ(run_program("smooth " + in + " --quiet -o " + workspace.path("o3.off") +
                         " --mu 0.5 --iterations 12 --trace " + workspace.path("other.trace"))

@@ -5,6 +5,7 @@
 #include "quality/inverted.h"
 #include "smoothing/initial_normals.h"
 #include "smoothing/surface_watch.h"
+#include "smoothing/turn_limit.h"
 
 namespace isorelax {
 namespace {
@@ -52,6 +53,12 @@ TEST(SurfaceWatch, SeesATriangleThatFacesAwayWithoutAFold) {
   // The corner leans over the opposite edge, so high above it that no edge turns by 150 degrees.
   const TriangleMesh moved = squeezed_sphere(-0.2, 1.3);
   ASSERT_TRUE(inverted_triangles(moved.positions, moved.triangles, problem.topology).empty());
+  const auto corners = [&](const TriangleMesh& mesh) {
+    const auto& [a, b, c] = mesh.triangles[kAbout];
+    return std::array<Vec3, 3>{mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+  };
+  EXPECT_FALSE(TurnLimit(problem).faces_away(kAbout, corners(start)));
+  EXPECT_TRUE(TurnLimit(problem).faces_away(kAbout, corners(moved)));
   const SurfaceWatch::Finding found = watch.look(moved.positions, 1);
   EXPECT_GE(found.turned_triangles, 1U);
   for (const Index v : start.triangles[kAbout])
