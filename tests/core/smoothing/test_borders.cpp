@@ -118,9 +118,17 @@ TEST(Borders, ACornerIsWhatTurnsByMoreThanTheStatedAngle) {
   EXPECT_EQ(corners(), 24);
   options.features.boundary_turn_deg = 16;
   EXPECT_EQ(corners(), 0);
-  // Whichever way the angles of a regular polygon are rounded.
-  options.features.boundary_turn_deg = 15;
-  EXPECT_EQ(corners(), 0);
+}
+
+TEST(Borders, ARegularPolygonWhoseCornersTurnByJustThatAngleHasNone) {
+  const auto circle = [](double) { return 1.0; };
+  for (Index rings = 1; rings <= 12; ++rings) {
+    const TriangleMesh mesh = disc(rings, circle, 0);
+    ProblemOptions options{.boundary = BoundaryRule::slide};
+    options.features.boundary_turn_deg = 60.0 / rings;  // whichever way that is rounded
+    const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, options);
+    EXPECT_EQ(std::ranges::count(problem.classes.classes, VertexClass::corner), 0) << rings;
+  }
 }
 
 TEST(Borders, AFreeBorderMovesButStaysNearWhereItWas) {

@@ -89,9 +89,10 @@ TEST(BoundedRun, WithALimitOfZeroBordersSlideAlongStraightLines) {
 }
 
 TEST(BoundedRun, TheExponentIsTwoWhereAreasCount) {
-  TriangleMesh squares = generate(ShapeKind::random_square, {.seed = 5, .triangles = 400});
+  // Angles get worse by it with either exponent.
+  TriangleMesh squares = generate(ShapeKind::random_square, {.seed = 12, .triangles = 400});
   TriangleMesh by_default = squares;
-  ProblemOptions options{.weights = EnergyWeights::from_mu(0.9), .boundary = BoundaryRule::slide};
+  ProblemOptions options{.weights = EnergyWeights::from_mu(1), .boundary = BoundaryRule::slide};
   smooth_by_default(by_default, options);
   options.exponent = 2;
   smooth_by_default(squares, options);
@@ -99,13 +100,16 @@ TEST(BoundedRun, TheExponentIsTwoWhereAreasCount) {
 }
 
 TEST(BoundedRun, OfWhatIsConvergedKeepsItsExponent) {
-  TriangleMesh mesh = generate(ShapeKind::hexagonal_square, {.seed = 5, .triangles = 400, .jitter = 0.9});
   const auto names_the_exponent = [](const std::string& note) {
     return note.find("exponent") != std::string::npos;
   };
-  for (unsigned again = 0; again < 4; ++again) {
-    const BoundedResult result = smooth_by_default(mesh, {.boundary = BoundaryRule::slide});
-    EXPECT_TRUE(std::ranges::none_of(result.notes, names_the_exponent)) << again;
+  for (const unsigned seed : {1, 2, 3}) {
+    TriangleMesh mesh =
+        generate(ShapeKind::hexagonal_square, {.seed = seed, .triangles = 400, .jitter = 0.9});
+    for (unsigned again = 0; again < 4; ++again) {
+      const BoundedResult result = smooth_by_default(mesh, {.boundary = BoundaryRule::slide});
+      EXPECT_TRUE(std::ranges::none_of(result.notes, names_the_exponent)) << seed << " " << again;
+    }
   }
 }
 
