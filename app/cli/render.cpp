@@ -81,6 +81,7 @@ class RenderCommand : public Command {
     if (!view.against.empty()) read.push_back(find_file(view.against, options_.source()));
     check_outputs({{{"--output", output_}, {"--save-view", view_file_}}}, read);
     std::vector<TriangleMesh> meshes;
+    meshes.reserve(files.size());
     for (const std::string& file : files) meshes.push_back(read_input(console, file));
     std::optional<TriangleMesh> against;
     if (!view.against.empty()) against = read_input(console, find_file(view.against, options_.source()));
