@@ -241,6 +241,8 @@ bool CarrierRelaxation::lies_upside_down(const FlowMap& map, Index t) const {
   const Vec3 area = area_vector(surface.point(trial_points_[v[0]]), surface.point(trial_points_[v[1]]),
                                 surface.point(trial_points_[v[2]]));
   for (const Index corner : v) {
+    // On a crease a point's triangle may be that of another side; what is held turns nothing.
+    if (held_[corner] != 0) continue;
     const auto& frame = surface.frame(trial_points_[corner].triangle);
     if (!(area.dot(frame[0].cross(frame[1])) > 0.1 * area.norm())) return true;
   }

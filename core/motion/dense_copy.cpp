@@ -37,7 +37,7 @@ std::vector<Vec3> smooth_middles(const TriangleMesh& mesh, const Topology& topol
   for (std::size_t e = 0; e < edges.edges().size(); ++e) {
     const MiddledEdge& edge = edges.edges()[e];
     const Vec3 chord = 0.5 * (mesh.positions[edge.a] + mesh.positions[edge.b]);
-    middles.push_back(walls[edge.corner] != 0 ? chord : Vec3(chord + edges.heights()[e]));
+    middles.push_back(walls[edge.corner] != 0 ? chord : edges.mapped(e).position);
   }
   return middles;
 }

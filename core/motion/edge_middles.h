@@ -14,7 +14,8 @@ struct MiddledEdge {
 };
 
 /// How far the surface stands off a mesh whose vertices are points on it: at the middle of every edge, from
-/// the middle of the chord to the surface's own middle between the two points.
+/// the middle of the chord to the surface, along the normal at the surface's own middle between the two
+/// points; to a crease or border, at a right angle to the edge.
 class EdgeMiddles {
  public:
   EdgeMiddles(std::span<const Triangle> triangles, const Topology& topology, unsigned threads);

@@ -267,7 +267,8 @@ void MovingSurface::advance(double end) {
       report_.redistributed = true;
     }
     const std::vector<Vec3> on_surface = next.positions;
-    if (balance_) report_.balance = balance_->balance(*map_, next.points, wanted_volume(), next.positions);
+    if (balance_)
+      report_.balance = balance_->balance(*map_, next.points, always_held_, wanted_volume(), next.positions);
     measure_deviation_of(next, on_surface);
   }
   // On the grid of fixed steps again, not where rounding led.

@@ -21,7 +21,8 @@ VolumeBalance::VolumeBalance(std::span<const Triangle> triangles, const Topology
   lengths_.resize(topology.vertex_count());
 }
 
-BalanceReport VolumeBalance::balance(const FlowMap& map, std::span<const MaterialPoint> points, double volume,
+BalanceReport VolumeBalance::balance(const FlowMap& map, std::span<const MaterialPoint> points,
+                                     std::span<const std::uint8_t> held, double volume,
                                      std::span<Vec3> positions) {
   constexpr double kMostOfEdge = 0.25;
   constexpr double kLargestFactor = 4;
@@ -46,6 +47,10 @@ BalanceReport VolumeBalance::balance(const FlowMap& map, std::span<const Materia
     const double norm = normals_[v].norm();
     const Vec3 normal = norm > 0 ? Vec3(normals_[v] / norm) : Vec3::Zero();
     const double most = kMostOfEdge * lengths_[v];
+    if (held[v] != 0) {
+      moves_[v].setZero();
+      continue;
+    }
     moves_[v] = std::clamp(moves_[v].dot(normal), -most, most) * normal;
   }
 

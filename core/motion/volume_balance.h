@@ -19,14 +19,15 @@ struct BalanceReport {
 /// A mesh with its vertices on a curved surface cuts its chords: it lacks volume wherever it is coarse. Each
 /// vertex moves along its normal in proportion to the mean height of the surface over the middles of its
 /// edges (what the best piecewise linear approximation would do), with one factor for all such that the
-/// volume is the wanted one. Nothing accumulates: positions start from the surface every time.
+/// volume is the wanted one. Creases and corners stay. Nothing accumulates: positions start from the surface
+/// every time.
 class VolumeBalance {
  public:
   VolumeBalance(std::span<const Triangle> triangles, const Topology& topology, unsigned threads);
 
   /// Precondition: positions = map of the points. No vertex goes farther than a quarter of its mean edge.
-  BalanceReport balance(const FlowMap& map, std::span<const MaterialPoint> points, double volume,
-                        std::span<Vec3> positions);
+  BalanceReport balance(const FlowMap& map, std::span<const MaterialPoint> points,
+                        std::span<const std::uint8_t> held, double volume, std::span<Vec3> positions);
 
  private:
   std::vector<Triangle> triangles_;
