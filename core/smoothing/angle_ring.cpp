@@ -10,10 +10,25 @@
 namespace isorelax {
 
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto [at_a, at_b, at_c] = triangle_angles(a, b, c);
+  return {std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c})};
+}
+
+std::array<double, 3> triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double at_a = angle_between_deg(b - a, c - a);
   const double at_b = angle_between_deg(c - b, a - b);
-  const double at_c = 180 - at_a - at_b;
-  return {std::min({at_a, at_b, at_c}), std::max({at_a, at_b, at_c})};
+  return {at_a, at_b, 180 - at_a - at_b};
+}
+
+std::array<Vec3, 3> angle_gradients(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 to_b = b - a;
+  const Vec3 to_c = c - a;
+  const Vec3 normal = to_b.cross(to_c);
+  const Vec3 n = normal * (kDegrees / normal.norm());
+  // Turning the ray from b to a about the normal opens the angle at b; at c it closes it.
+  const Vec3 at_b = -n.cross(to_b) / to_b.squaredNorm();
+  const Vec3 at_c = n.cross(to_c) / to_c.squaredNorm();
+  return {-at_b - at_c, at_b, at_c};
 }
 
 void AngleRing::look_at(std::span<const Vec3> positions, Index vertex) {
@@ -68,7 +83,7 @@ std::vector<MoveBound> AngleRing::move_bounds(const Vec3& at, std::span<const An
   std::vector<MoveBound> found;
   found.reserve(6 * sides_.size());
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const std::array<Vec3, 3> g = gradients(sides_[i], at);
+    const std::array<Vec3, 3> g = angle_gradients(at, sides_[i].a, sides_[i].b);
     const AngleRange& bound = bounds[triangles_[i]];
     for (unsigned k = 0; k < 3; ++k) {
       found.push_back({g[k], angles_[3 * i + k] - bound.min});
@@ -141,17 +156,6 @@ void AngleRing::measure(const Vec3& at) {
   }
 }
 
-std::array<Vec3, 3> AngleRing::gradients(const Side& side, const Vec3& at) {
-  const Vec3 to_a = side.a - at;
-  const Vec3 to_b = side.b - at;
-  const Vec3 normal = to_a.cross(to_b);
-  const Vec3 n = normal * (kDegrees / normal.norm());
-  // Turning the ray from a to the vertex about the normal opens the angle at a; at b it closes it.
-  const Vec3 ga = -n.cross(to_a) / to_a.squaredNorm();
-  const Vec3 gb = n.cross(to_b) / to_b.squaredNorm();
-  return {-ga - gb, ga, gb};
-}
-
 /// All scores of the ring.
 void AngleRing::collect(const Vec3& at) {
   measure(at);
@@ -210,7 +214,7 @@ AngleRing::Soft AngleRing::soft_minimum(const Vec3& at, double sharpness) {
   weigh(scores_, scores_.size(), sharpness);
   gradients_.clear();
   for (const Side& side : sides_) {
-    for (const Vec3& g : gradients(side, at)) {
+    for (const Vec3& g : angle_gradients(at, side.a, side.b)) {
       gradients_.push_back(g);
       gradients_.push_back(-goal_.obtuse_weight * g);
     }
@@ -239,7 +243,7 @@ AngleRing::Soft AngleRing::sum_of_soft_minima(const Vec3& at, double sharpness) 
   weigh(angles_, 3, sharpness);
   Soft sum{0, Vec3::Zero(), Mat3::Zero()};
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const Soft soft = soft_of(3 * i, gradients(sides_[i], at), sharpness);
+    const Soft soft = soft_of(3 * i, angle_gradients(at, sides_[i].a, sides_[i].b), sharpness);
     sum.value += soft.value;
     sum.gradient += soft.gradient;
     sum.spread += soft.spread;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -14,6 +15,10 @@ struct AngleRange {
   double min, max;
 };
 AngleRange angle_range(const Vec3& a, const Vec3& b, const Vec3& c);
+/// The angles at a, at b and at c, in degrees.
+std::array<double, 3> triangle_angles(const Vec3& a, const Vec3& b, const Vec3& c);
+/// Gradients of the angles at a, at b and at c for a, in degrees per length.
+std::array<Vec3, 3> angle_gradients(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// What both angles are to get better than: those of the worst triangles at the start. The score of an angle
 /// is the lesser of its two gains, in degrees.
@@ -80,8 +85,6 @@ class AngleRing {
   [[nodiscard]] bool turns_back();
   /// Angles of all sides' triangles, in degrees, at the vertex, at a and at b, to angles_.
   void measure(const Vec3& at);
-  /// Their gradients for one of them.
-  static std::array<Vec3, 3> gradients(const Side& side, const Vec3& at);
   void collect(const Vec3& at);
   void weigh(std::span<const double> scores, std::size_t group, double sharpness);
   [[nodiscard]] Soft soft_of(std::size_t first, std::span<const Vec3> gradients, double sharpness) const;

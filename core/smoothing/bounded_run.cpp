@@ -172,9 +172,10 @@ AutomaticLimits limits_of(std::span<const Vec3> positions, const SmoothingProble
   return limits;
 }
 
-/// The smoothing part of run_bounded, with deviations measured against `surface`.
+/// The smoothing part of run_bounded, with deviations measured against `surface`. `smoothed_mean` becomes the
+/// mean of the smallest angles before the last stage.
 BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
-                       const ProblemOptions& options, const Attempts& attempts) {
+                       const ProblemOptions& options, const Attempts& attempts, double& smoothed_mean) {
   const std::vector<Vec3> original(positions.begin(), positions.end());
   const SmoothingProblem unheld = make_problem(original, attempts.triangles, options);
   const SurfaceWatch watch(surface, original, unheld);
@@ -216,6 +217,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     SurfaceWatch::Finding found = watch.look(positions, limit);
     result.deviation_limit = limit;
+    smoothed_mean = mean_of_smallest_angles(positions, attempts.triangles, options.threads);
     const bool sound = found.sound();
     if (attempts.polish && sound && !trying && !cancelled && result.run.stopped != StopReason::fixed) {
       result.deviation_limit = widest;
@@ -233,22 +235,21 @@ BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const 
                                      std::span<const Vec3> input, const ProblemOptions& options,
                                      const Attempts& attempts) {
   const bool is_about_angles = options.weights.area <= options.weights.shape;
-  if (options.exponent || !is_about_angles) return run_from(positions, surface, options, attempts);
   const std::vector<Vec3> original(positions.begin(), positions.end());
-  const auto mean = [&](std::span<const Vec3> x) {
-    return mean_of_smallest_angles(x, attempts.triangles, options.threads);
-  };
-  BoundedResult result = run_from(positions, surface, options, attempts);
-  const double with_squares = mean(positions);
-  if (with_squares >= mean(input) - kSameMean || result.run.stopped == StopReason::cancelled) return result;
+  double with_squares = 0;
+  BoundedResult result = run_from(positions, surface, options, attempts, with_squares);
+  if (options.exponent || !is_about_angles || result.run.stopped == StopReason::cancelled) return result;
+  if (with_squares >= mean_of_smallest_angles(input, attempts.triangles, options.threads) - kSameMean)
+    return result;
   ProblemOptions linear = options;
   linear.exponent = 1;
   std::copy(original.begin(), original.end(), positions.begin());
-  result = run_from(positions, surface, linear, attempts);
+  double with_one = 0;
+  result = run_from(positions, surface, linear, attempts, with_one);
   if (result.run.stopped == StopReason::cancelled) return result;
-  if (mean(positions) <= with_squares + kSameMean) {
+  if (with_one <= with_squares + kSameMean) {
     std::copy(original.begin(), original.end(), positions.begin());
-    return run_from(positions, surface, options, attempts);
+    return run_from(positions, surface, options, attempts, with_squares);
   }
   result.notes.emplace_back(
       "the exponent is 1: with 2, the worst triangles get better at the cost of all others");

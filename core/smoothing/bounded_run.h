@@ -36,8 +36,8 @@ struct PolishOptions {
   double worst_share = 0.1;
   /// What a degree that the largest angle falls counts, beside a degree that the smallest rises.
   double obtuse_weight = 2;
-  /// Steps of both goals together; each also ends by itself, the worst after 300 and the mean after 100.
-  unsigned iterations = 400;
+  /// Steps of both goals together; each also ends by itself, the worst after 400 and the mean after 100.
+  unsigned iterations = 500;
 };
 
 /// What the steps of a run are made with from some iteration on: enough to make them again.

@@ -43,12 +43,18 @@ double mean_chord(std::span<const Vec3> positions, const SmoothingProblem& probl
   return count == 0 ? 0 : sum / (static_cast<double>(count) * bounding_diagonal(positions));
 }
 
+bool has_border(const Topology& topology) {
+  for (Index v = 0; v < topology.vertex_count(); ++v)
+    if (topology.is_boundary(v)) return true;
+  return false;
+}
+
 }  // namespace
 
 AutomaticLimits automatic_limits(std::span<const Vec3> positions, const SmoothingProblem& problem,
                                  const ProblemOptions& options) {
   const double chord = problem.plane_normal ? 0 : mean_chord(positions, problem, options);
-  const bool free_border = options.boundary == BoundaryRule::free;
+  const bool free_border = options.boundary == BoundaryRule::free && has_border(problem.topology);
   const double border = free_border ? problem.mean_edge_length / bounding_diagonal(positions) : 0;
   const bool on_fits = problem.surface && problem.surface->agreement() > kAgreement;
   const double medium = on_fits ? kMediumOnFits : kMedium;

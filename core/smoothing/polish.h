@@ -19,7 +19,8 @@ inline constexpr double kPolishTolerance = std::numeric_limits<double>::min();
 /// worst of the mesh, the nearest first, and moves each to a higher soft minimum of the scores around it. The
 /// score of an angle a is the lesser of a - m and obtuse_weight * (M - a), where m and M are the smallest and
 /// the largest angle at the start of the triangles that can change: both get better, from wherever the stage
-/// starts. The soft minimum gets sharper from stage to stage.
+/// starts. The soft minimum gets sharper from stage to stage. Where vertices one after another get no
+/// farther, groups of them move together (GroupClimb).
 ///
 /// What can be had of both has a bound where a vertex of three triangles is next to one of four, in a plane:
 /// whatever the positions, the smallest angle is at most 22.5 degrees and at most 1.5 times the largest less

@@ -184,13 +184,17 @@ PolishState::Hold PolishState::hold_of_triangles(const Vec3& there, std::span<co
 /// Where nothing holds the vertex, the distance is counted from there on: what is asked last.
 PolishState::Hold PolishState::hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds) {
   if (const Hold hold = hold_of_triangles(there, bounds); hold != Hold::none) return hold;
+  if (keeps_near(vertex, there)) return Hold::none;
+  held_back_ |= kLimitSurface;
+  return Hold::distance;
+}
+
+bool PolishState::keeps_near(Index vertex, const Vec3& there) {
   const Vec3 here = x_[vertex];
   x_[vertex] = there;
   const bool near = surface_.keeps(x_, vertex);
   x_[vertex] = here;
-  if (near) return Hold::none;
-  held_back_ |= kLimitSurface;
-  return Hold::distance;
+  return near;
 }
 
 double PolishState::move(Index vertex, const Vec3& there) {
@@ -200,6 +204,28 @@ double PolishState::move(Index vertex, const Vec3& there) {
   for (std::size_t i = 0; i < ranges.size(); ++i) ranges_[ring_.triangles()[i]] = ranges[i];
   note_change(vertex);
   return distance;
+}
+
+bool PolishState::move_together(std::span<const Index> vertices, std::span<const Vec3> there) {
+  std::vector<Vec3> back;
+  const auto stays = [&](Index v) {
+    if (!look_at(v).is_upright(there[v]) || !keeps_near(v, there[v])) return true;
+    back.push_back(x_[v]);
+    move(v, there[v]);
+    return false;
+  };
+  if (std::ranges::none_of(vertices, stays)) return true;
+  bool near = true;
+  while (!back.empty()) {
+    const Index v = vertices[back.size() - 1];
+    look_at(v);
+    near = keeps_near(v, back.back()) && near;
+    move(v, back.back());
+    back.pop_back();
+  }
+  // Bounds on distances may have grown on the way.
+  if (!near) surface_.start(x_);
+  return false;
 }
 
 std::vector<Index> PolishState::settle(std::span<const Vec3> positions, StepRecord& record) {

@@ -44,6 +44,10 @@ class PolishState {
   /// Moves the looked-at vertex. Returns how far.
   double move(Index vertex, const Vec3& there);
 
+  /// Moves these vertices to where they are in `there`, by number, all or none. None where a triangle would
+  /// turn over or the surface leave where it has to stay, on the way as well, one vertex after another.
+  bool move_together(std::span<const Index> vertices, std::span<const Vec3> there);
+
   /// Notes that no climb of the looked-at vertex leads anywhere. One that asks for no more need not be tried
   /// before something around the vertex has changed.
   void note_stuck(Index vertex) { stuck_at_[vertex] = clock_; }
@@ -74,6 +78,7 @@ class PolishState {
   [[nodiscard]] std::optional<Vec3> along_bounds(const Climb& climb, const NewtonBlock& model);
   [[nodiscard]] Hold hold_of_triangles(const Vec3& there, std::span<const AngleRange> bounds);
   [[nodiscard]] Hold hold_at(Index vertex, const Vec3& there, std::span<const AngleRange> bounds);
+  [[nodiscard]] bool keeps_near(Index vertex, const Vec3& there);
 
   const SmoothingProblem& problem_;
   AngleRing ring_;

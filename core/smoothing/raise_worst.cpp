@@ -1,24 +1,34 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "smoothing/group_climb.h"
 #include "smoothing/polish_state.h"
 
 namespace isorelax {
 namespace {
 
-/// Sharpness of the soft minimum, per degree, stage by stage.
+/// Stages of one kind: how sharp the soft minimum is in each, per degree, and the most steps of all of them.
+struct WorstRound {
+  bool in_groups;
+  std::span<const double> sharpness;
+  unsigned most_steps;
+};
 constexpr std::array kSharpness = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
-/// A stage ends after this many steps, or when in this many in a row neither of the worst angles, nor the
-/// soft minimum of all scores, gains kGain degrees. All end after kMostSteps.
+constexpr std::array kGroupSharpness = {2.0, 4.0, 8.0, 16.0, 32.0};
+constexpr std::array kWorstRounds = {WorstRound{false, kSharpness, 300},
+                                     WorstRound{true, kGroupSharpness, 100}};
+/// A stage of single vertices ends after this many steps, or when in this many in a row neither of the worst
+/// angles, nor the soft minimum of all scores, gains kGain degrees; one of groups when no group gains that.
 constexpr unsigned kStageSteps = 60;
 constexpr unsigned kPolishIdleSteps = 5;
-constexpr unsigned kMostSteps = 300;
 constexpr double kGain = 0.002;
+/// Groups go through their stages again after a round that gained more.
+constexpr double kRoundGain = 0.02;
 /// Triangles within this many degrees of the worst are treated; halved where the mean would fall too
 /// far, down to the least.
 constexpr double kWindow = 5;
 constexpr double kLeastWindow = 0.5;
+/// In groups, those within this many.
+constexpr double kGroupWindow = 3;
 constexpr unsigned kStepsPerVisit = 2;
 /// Degrees of the mean that may be lost for the sake of triangles that are not the worst.
 constexpr double kFreeLoss = 0.1;
@@ -28,14 +38,14 @@ class RaiseWorst : public PolishGoalSweeps {
   explicit RaiseWorst(const PolishOptions& options) : options_(options) {}
 
   bool sweep(PolishState& state) override {
-    if (!goal_) {
-      goal_ = {state.worst(), options_.obtuse_weight};
-      mean_ = state.mean();
-      bounds_.assign(state.problem().triangle_count(), goal_->start);
-    }
+    if (!goal_) begin(state);
     const std::vector<Vec3> start = state.positions();
-    while (stage_ < kSharpness.size() && done_ < kMostSteps) {
-      if (sweep_once(state)) {
+    while (round_ < kWorstRounds.size()) {
+      if (done_ == round().most_steps) {
+        begin_round(round_ + 1);
+        continue;
+      }
+      if (round().in_groups ? sweep_groups(state) : sweep_singles(state)) {
         ++done_;
         return true;
       }
@@ -45,8 +55,40 @@ class RaiseWorst : public PolishGoalSweeps {
   }
 
  private:
+  void begin(PolishState& state) {
+    worst_ = state.worst();
+    before_ = reached_ = worst_;
+    goal_ = {worst_, options_.obtuse_weight};
+    mean_ = state.mean();
+    const auto triangles = static_cast<Index>(state.problem().triangle_count());
+    for (Index t = 0; t < triangles; ++t) count_ += state.can_change(t) ? 1 : 0;
+    bounds_.assign(triangles, worst_);
+    groups_.emplace(state.problem());
+  }
+
+  [[nodiscard]] const WorstRound& round() const { return kWorstRounds.at(round_); }
+  [[nodiscard]] double sharpness() const { return round().sharpness[stage_]; }
+
+  void begin_round(std::size_t number) {
+    if (number != round_) done_ = 0;
+    round_ = number;
+    stage_ = 0;
+    before_ = reached_ = worst_;
+  }
+
+  void end_stage() {
+    steps_ = idle_ = 0;
+    reached_ = worst_;
+    if (++stage_ == round().sharpness.size()) end_round();
+  }
+
+  void end_round() {
+    const bool gained = worst_.min > before_.min + kRoundGain || worst_.max < before_.max - kRoundGain;
+    begin_round(round().in_groups && gained ? round_ : round_ + 1);
+  }
+
   /// False if that came to nothing, and another stage or fewer triangles are next.
-  bool sweep_once(PolishState& state) {
+  bool sweep_singles(PolishState& state) {
     worst_ = state.worst();
     const AngleRange before = worst_;
     const double merit_before = merit(state);
@@ -56,16 +98,29 @@ class RaiseWorst : public PolishGoalSweeps {
     if (mean_ - state.mean() > allowed_loss()) {
       // Back to where the step began, and on with fewer triangles.
       window_ /= 2;
-      if (window_ < kLeastWindow) stage_ = kSharpness.size();
+      if (window_ < kLeastWindow) end_round();
       return false;
     }
     const bool gained = worst_.min > before.min + kGain || worst_.max < before.max - kGain;
     const bool idle = !gained && merit(state) < merit_before + kGain;
     idle_ = idle ? idle_ + 1 : 0;
     if (largest > 0 && ++steps_ < kStageSteps && idle_ < kPolishIdleSteps) return true;
-    ++stage_;
-    steps_ = idle_ = 0;
+    end_stage();
     return largest > 0;
+  }
+
+  /// Scores are those beyond what was reached before this stage, and nothing gets worse than that.
+  bool sweep_groups(PolishState& state) {
+    worst_ = state.worst();
+    std::vector<std::uint8_t> flags(bounds_.size(), 0);
+    for (Index t = 0; t < flags.size(); ++t)
+      flags[t] = state.can_change(t) && lead(state.range(t)) <= kGroupWindow ? 1 : 0;
+    const double spare = std::max(0.0, state.mean() - mean_ + allowed_loss());
+    const double gain = groups_->sweep(
+        state, {{reached_, options_.obtuse_weight}, sharpness(), reached_, spare * count_}, flags);
+    worst_ = state.worst();
+    if (gain < kGain) end_stage();
+    return gain > 0;
   }
 
   /// Where the worst of all gain nothing, the next ones are not worth much of the mean.
@@ -83,7 +138,7 @@ class RaiseWorst : public PolishGoalSweeps {
 
   /// The soft minimum of the scores of all triangles, in degrees, as sharp as this stage.
   [[nodiscard]] double merit(const PolishState& state) const {
-    const double sharpness = kSharpness.at(stage_);
+    const double sharpness = this->sharpness();
     double sum = 0;
     const double worst = std::min(goal_->of_small(worst_.min), goal_->of_large(worst_.max));
     for (Index t = 0; t < state.problem().triangle_count(); ++t) {
@@ -122,9 +177,9 @@ class RaiseWorst : public PolishGoalSweeps {
     const Vec3 start = state.positions()[v];
     Vec3 at = start;
     // What a blunt minimum asks for may be too bad for the worst triangle: then a sharper one decides.
-    for (std::size_t s = stage_; s < kSharpness.size() && at == start; ++s) {
+    for (std::size_t s = stage_; s < kWorstRounds.at(round_).sharpness.size() && at == start; ++s) {
       for (unsigned i = 0; i < kStepsPerVisit; ++i)
-        if (!climb(state, ring, v, kSharpness[s], at)) break;
+        if (!climb(state, ring, v, kWorstRounds.at(round_).sharpness[s], at)) break;
     }
     if (at != start) return state.move(v, at);
     state.note_stuck(v);
@@ -141,12 +196,15 @@ class RaiseWorst : public PolishGoalSweeps {
 
   PolishOptions options_;
   std::optional<AngleGoal> goal_;
-  std::vector<AngleRange> bounds_;  // no angle gets worse than the worst at the start
-  AngleRange worst_{0, 180};        // of the mesh now
-  double mean_ = 0;                 // of the smallest angles at the start
+  std::optional<GroupClimb> groups_;
+  std::vector<AngleRange> bounds_;                 // no angle gets worse than the worst at the start
+  AngleRange worst_{0, 180};                       // of the mesh now
+  AngleRange before_ = worst_, reached_ = worst_;  // before this round, this stage
+  double count_ = 0;                               // of triangles that can change
+  double mean_ = 0;                                // of their smallest angles at the start
   double window_ = kWindow;
-  std::size_t stage_ = 0;
-  unsigned steps_ = 0, idle_ = 0, done_ = 0;
+  std::size_t round_ = 0, stage_ = 0;
+  unsigned steps_ = 0, idle_ = 0, done_ = 0;  // of the stage; of the round
 };
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include "mesh/disjoint_sets.h"
 #include "mesh/error.h"
 #include "quality/inverted.h"
+#include "quality/triangle_metrics.h"
 #include "smoothing/orientation_field.h"
 #include "smoothing/problem.h"
+#include "smoothing/untangle_flat.h"
 #include "surface/surface_distance.h"
 
 namespace isorelax {
@@ -83,6 +85,43 @@ void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<con
   result = {result.before, result.before, {}};
 }
 
+double smallest_angle(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+  double smallest = 180;
+  for (const auto& [a, b, c] : triangles)
+    smallest = std::min(smallest, measure_triangle(x[a], x[b], x[c]).min_angle_deg);
+  return smallest;
+}
+
+/// Flat faces first, each in its own plane: their rims are known then, and hold.
+UntangleResult untangle_surface(std::span<Vec3> positions, std::span<const Triangle> triangles,
+                                const Topology& topology, const ProblemOptions& options,
+                                std::vector<std::uint8_t>& movable, const std::vector<Index>& inverted) {
+  const std::vector<Vec3> input(positions.begin(), positions.end());
+  const FlatUntangling flat = untangle_flat_faces(positions, triangles, topology, movable, options.threads);
+  const std::vector<Vec3> start(positions.begin(), positions.end());
+  const std::vector<Index> left =
+      flat.moved ? inverted_triangles(positions, triangles, topology, options.threads) : inverted;
+  for (Index v = 0; v < movable.size(); ++v)
+    if (flat.touched[v] != 0) movable[v] = 0;
+  hold_features(movable, positions, triangles, topology, options, left);
+  UntangleResult result = untangle(positions, triangles, topology, movable, options.threads);
+  const bool few = kOnePerTriangles * left.size() < triangles.size();
+  if (few && !result.moved.empty())
+    take_back_far(positions, start, triangles, topology, result, options.threads);
+  // What only gets less tangled is not to get worse by it.
+  if (result.after > 0 && smallest_angle(positions, triangles) < smallest_angle(start, triangles)) {
+    std::copy(start.begin(), start.end(), positions.begin());
+    result = {result.before, result.before, {}};
+  }
+  if (!flat.moved) return result;
+  result.before = inverted.size();
+  result.after = inverted_triangles(positions, triangles, topology, options.threads).size();
+  result.moved.clear();
+  for (Index v = 0; v < positions.size(); ++v)
+    if (positions[v] != input[v]) result.moved.push_back(v);
+  return result;
+}
+
 }  // namespace
 
 UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangle> triangles,
@@ -95,14 +134,9 @@ UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangl
   for (const Index v : options.pinned) {
     if (v < movable.size()) movable[v] = 0;
   }
-  const bool planar = plane_normal(positions, triangles, topology, options.threads).has_value();
-  if (!planar) hold_features(movable, positions, triangles, topology, options, inverted);
-  const std::vector<Vec3> input(positions.begin(), positions.end());
-  UntangleResult result = untangle(positions, triangles, topology, movable, options.threads);
-  const bool few = !planar && kOnePerTriangles * inverted.size() < triangles.size();
-  if (few && !result.moved.empty())
-    take_back_far(positions, input, triangles, topology, result, options.threads);
-  return result;
+  if (plane_normal(positions, triangles, topology, options.threads))
+    return untangle(positions, triangles, topology, movable, options.threads);
+  return untangle_surface(positions, triangles, topology, options, movable, inverted);
 }
 
 }  // namespace isorelax

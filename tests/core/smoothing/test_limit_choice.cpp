@@ -62,6 +62,11 @@ TEST(LimitChoice, CoarseSurfacesPlanesAndFreeBordersDoNot) {
     EXPECT_EQ(limits.nearest, limits.widest);
 }
 
+TEST(LimitChoice, WithoutABorderNothingIsFree) {
+  EXPECT_EQ(limits_of(sphere(), {.boundary = BoundaryRule::free}).nearest, limits_of(sphere()).nearest);
+  EXPECT_EQ(limits_of(sphere(), {.boundary = BoundaryRule::free}).widest, limits_of(sphere()).widest);
+}
+
 TEST(LimitChoice, ASphereStaysNearSinceThatCostsNothing) {
   const Smoothed wide = smooth(sphere(), {0.003});
   const Smoothed chosen = smooth(sphere(), {});

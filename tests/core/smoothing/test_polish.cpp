@@ -120,6 +120,15 @@ TEST(Polish, GetsBetterInBothAnglesThanEveryExponentItStartsFrom) {
   }
 }
 
+TEST(Polish, MovesGroupsWhereVerticesOneByOneAreHeld) {
+  // One by one they end at 132.95 degrees; a linear program over all vertices finds 130.0, where the smallest
+  // angle is 20.
+  const Polished p = polish(generate(ShapeKind::random_square, {.seed = 7, .triangles = 500}), {});
+  const QualityReport after = measure_quality(p.polished);
+  EXPECT_GT(after.min_angle_deg, 19.99);
+  EXPECT_LT(after.max_angle_deg, 130.5);
+}
+
 TEST(Polish, FindsTheBestPlaceOfAVertexOfThreeTrianglesNextToOneOfFour) {
   // In a triangle of 67.5, 67.5 and 45 degrees all eight angles at its corners can be 22.5.
   const double top = 0.5 * std::tan(67.5 * M_PI / 180);

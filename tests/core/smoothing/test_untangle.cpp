@@ -142,6 +142,58 @@ TEST(Untangle, TurnsTrianglesOfASphereAndStaysOnIt) {
   }
 }
 
+TEST(Untangle, WhatGetsOnlyLessTangledGetsNoWorse) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 500});
+    Random random(seed);
+    for (Vec3& p : mesh.positions)
+      if (random.uniform() < 0.05)
+        p = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+    const double before = measure_quality(mesh).min_angle_deg;
+    const UntangleResult result = untangle_input(mesh.positions, mesh.triangles, {});
+    EXPECT_TRUE(result.after == 0 || measure_quality(mesh).min_angle_deg >= before) << seed;
+  }
+}
+
+/// How many coordinates of a point are at an end of 0 .. 1: of a cube's faces that it is on.
+unsigned faces_at(const Vec3& p) {
+  unsigned count = 0;
+  for (unsigned k = 0; k < 3; ++k) count += p[k] == 0 || p[k] == 1 ? 1 : 0;
+  return count;
+}
+
+TEST(Untangle, FlatFacesInTheirOwnPlanes) {
+  TriangleMesh cube = generate(ShapeKind::cube, {.triangles = 1200});
+  Vec3 low = cube.positions[0];
+  for (const Vec3& p : cube.positions) low = low.cwiseMin(p);
+  for (Vec3& p : cube.positions) p -= low;
+  for (const double share : {0.02, 0.2, 0.5}) {
+    TriangleMesh mesh = cube;
+    Random random(1);
+    for (Vec3& p : mesh.positions) {
+      if (faces_at(p) != 1 || !(random.uniform() < share)) continue;
+      for (unsigned k = 0; k < 3; ++k)
+        if (p[k] != 0 && p[k] != 1) p[k] = random.uniform(0.01, 0.99);
+    }
+    const TriangleMesh tangled = mesh;
+    const BoundedResult result = smooth(mesh);
+    EXPECT_GT(result.untangled.before, 10U);
+    EXPECT_EQ(result.untangled.after, 0U) << share;
+    EXPECT_GT(measure_quality(mesh).min_angle_deg, 20) << share;
+    EXPECT_LT(result.deviation.max, 1e-12);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Vec3 &from = tangled.positions[v], &to = mesh.positions[v];
+      EXPECT_TRUE(faces_at(from) < 3 || to == from) << v;
+      for (unsigned k = 0; k < 3; ++k) EXPECT_TRUE(from[k] != 0 || std::abs(to[k]) < 1e-12) << v;
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vec3 middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
+      const Vec3 area = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+      EXPECT_GT(area.dot(middle - Vec3::Constant(0.5)), 0);
+    }
+  }
+}
+
 TEST(Untangle, OneVertexThatLiesAmongOthersIsPutBack) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 1500});
