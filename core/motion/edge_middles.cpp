@@ -65,11 +65,16 @@ void EdgeMiddles::measure(const FlowMap& map, std::span<const MaterialPoint> poi
       const auto [a, b, corner] = edges_[e];
       middles_[e] = middle_of(map.surface(), edges_[e], points);
       mapped_[e] = map.map(middles_[e]);
-      const Vec3 from_chord = mapped_[e].position - 0.5 * (positions[a] + positions[b]);
-      heights_[e] = map.surface().is_wall(corner) ? across(from_chord, positions[b] - positions[a])
-                                                  : along_normal(from_chord, mapped_[e].jacobian);
+      heights_[e] = mapped_[e].position - 0.5 * (positions[a] + positions[b]);
     }
   });
+}
+
+double EdgeMiddles::distance(const MaterialSurface& surface, std::size_t edge,
+                             std::span<const Vec3> positions) const {
+  const auto [a, b, corner] = edges_[edge];
+  return surface.is_wall(corner) ? across(heights_[edge], positions[b] - positions[a]).norm()
+                                 : along_normal(heights_[edge], mapped_[edge].jacobian).norm();
 }
 
 }  // namespace isorelax

@@ -281,7 +281,8 @@ void MovingSurface::advance(double end) {
 void MovingSurface::measure_deviation_of(const MovingState& state, std::span<const Vec3> on_surface) {
   middles_->measure(*map_, state.points, state.positions);
   DistanceSum sum;
-  for (const Vec3& height : middles_->heights()) sum.add(height.norm());
+  for (std::size_t e = 0; e < middles_->edges().size(); ++e)
+    sum.add(middles_->distance(*material_, e, state.positions));
   for (std::size_t v = 0; v < on_surface.size(); ++v) sum.add((state.positions[v] - on_surface[v]).norm());
   report_.deviation = sum.result();
 }

@@ -174,5 +174,28 @@ TEST(MovingSurface, RefusesWhatItCannotCarry) {
   EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), motion_preset("balanced")), MeshError);
 }
 
+TEST(MovingSurface, OnAMeshWithCreasesTheOthersAreRedistributedAndMeasured) {
+  const TriangleMesh cube = generate(ShapeKind::cube, {.seed = 1, .triangles = 500, .jitter = 0.3});
+  const char* const bending = "expr:0.5*y*y;0.3*sin(3*x);0";
+  MovingSurface without(cube, parse_motion(bending), preset_with_step("none", 0.1));
+  MovingSurface with(cube, parse_motion(bending), preset_with_step("balanced", 0.1));
+  advance_to(without, 0.5);
+  advance_to(with, 0.5);
+  std::size_t moved = 0;
+  for (Index v = 0; v < cube.vertex_count(); ++v)
+    moved += (with.state().positions[v] - without.state().positions[v]).norm() > 1e-6 ? 1 : 0;
+  EXPECT_GT(2 * moved, cube.vertex_count());
+  // Flat faces that stay where they are stay flat.
+  MovingSurface still(cube, parse_motion("rigid:0,0,0"), preset_with_step("balanced", 0.1));
+  advance_to(still, 0.3);
+  EXPECT_LT(still.report().deviation.max, 1e-12);
+}
+
+TEST(DenseCopy, FollowsTheFlatFacesOfACube) {
+  const TriangleMesh cube = generate(ShapeKind::cube, {.seed = 1, .triangles = 200});
+  const auto [there, back] = DenseCopy(cube, 2, {}, 1).distances(cube.positions, cube.triangles);
+  EXPECT_LT(std::max(there.max, back.max), 1e-12);
+}
+
 }  // namespace
 }  // namespace isorelax
