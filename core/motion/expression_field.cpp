@@ -9,6 +9,31 @@
 #include <vector>
 
 namespace isorelax {
+namespace {
+
+/// Where muParser would assign to a variable: an equals sign that is part of no comparison.
+std::size_t assignment_in(std::string_view text) {
+  for (std::size_t at = text.find('='); at != std::string_view::npos; at = text.find('=', at + 1)) {
+    if (at + 1 < text.size() && text[at + 1] == '=') {
+      ++at;
+      continue;
+    }
+    if (at == 0 || std::string_view("<>!").find(text[at - 1]) == std::string_view::npos) return at;
+  }
+  return std::string_view::npos;
+}
+
+/// muParser counts from 0 and puts a space behind the text, which it may name as the place; its reasons tell
+/// the place too.
+ExpressionError error_of(const std::string& text, const mu::ParserError& error) {
+  const std::size_t position = static_cast<std::size_t>(std::max(0, error.GetPos()));
+  std::string reason = error.GetMsg();
+  for (const std::string_view place : {" found at position", " at position", " at expression position"})
+    reason.erase(std::min(reason.find(place), reason.size()));
+  return {text, std::min(position, text.size()) + 1, reason};
+}
+
+}  // namespace
 
 /// A parser holds the variables it reads: every thread takes one of its own for the time of an evaluation.
 class Expression::Pool {
@@ -35,6 +60,8 @@ class Expression::Pool {
   };
 
   [[nodiscard]] std::unique_ptr<Bound> make() const {
+    if (const std::size_t at = assignment_in(text_); at != std::string_view::npos)
+      throw ExpressionError(text_, at + 1, "nothing can be assigned; a comparison is ==");
     auto bound = std::make_unique<Bound>();
     try {
       const std::array<const char*, 4> names = {"x", "y", "z", "t"};
@@ -45,7 +72,7 @@ class Expression::Pool {
       static_cast<void>(bound->parser.Eval());
       if (bound->parser.GetNumResults() != 1) throw ExpressionError(text_, 1, "expected one expression");
     } catch (const mu::ParserError& error) {
-      throw ExpressionError(text_, static_cast<std::size_t>(std::max(0, error.GetPos())) + 1, error.GetMsg());
+      throw error_of(text_, error);
     }
     return bound;
   }

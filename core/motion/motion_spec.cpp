@@ -34,6 +34,14 @@ Vec3 vector_in(std::string_view text, std::string_view whole) {
   return vector;
 }
 
+/// The number behind the colon; without a colon `otherwise`.
+double number_behind(std::size_t colon, std::string_view whole, double otherwise, const char* what) {
+  if (colon == whole.size()) return otherwise;
+  const std::string_view rest = whole.substr(colon + 1);
+  if (rest.empty()) throw UsageError(std::string(whole.substr(0, colon)) + ": no " + what + " is given");
+  return number_in(rest, whole);
+}
+
 void read_rigid(std::string_view rest, std::string_view whole, RigidMotion& rigid) {
   rigid = {};
   // The sign of an exponent or of a number is no separator.
@@ -100,14 +108,14 @@ FieldSpec parse_field(std::string_view text, const FieldSpec& others) {
   FieldSpec spec = others;
   if (name == "paper" || name == "enright") {
     spec.kind = name == "paper" ? FieldKind::paper : FieldKind::enright;
-    spec.period = rest.empty() ? FieldSpec{}.period : number_in(rest, text);
+    spec.period = number_behind(colon, text, FieldSpec{}.period, "period");
     if (!(spec.period > 0)) throw UsageError(std::string(text) + ": the period is not positive");
   } else if (name == "rigid") {
     spec.kind = FieldKind::rigid;
     read_rigid(rest, text, spec.rigid);
   } else if (name == "shear") {
     spec.kind = FieldKind::shear;
-    spec.rate = rest.empty() ? FieldSpec{}.rate : number_in(rest, text);
+    spec.rate = number_behind(colon, text, FieldSpec{}.rate, "rate");
   } else if (name == "normal" && colon < text.size()) {
     spec.kind = FieldKind::normal;
     spec.speed = rest;

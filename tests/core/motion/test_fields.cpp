@@ -53,16 +53,23 @@ TEST(Fields, ExpressionsKnowCoordinatesAndTime) {
 }
 
 TEST(Fields, AMistakeInAnExpressionIsToldWithItsColumn) {
-  try {
-    (void)parse_motion("expr:1;x+;z");
-    FAIL() << "accepted";
-  } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("x+: column"), std::string::npos) << error.what();
+  for (const auto& [text, column] : {std::pair("x+", 3), std::pair("(z", 3), std::pair("y+1e", 3),
+                                     std::pair("sin()", 5), std::pair("z=3", 2), std::pair("x==1+y=2", 7)}) {
+    try {
+      const Expression expression(text);
+      FAIL() << text << " was accepted";
+    } catch (const ExpressionError& error) {
+      EXPECT_EQ(error.column(), column) << error.what();
+      EXPECT_EQ(error.reason().find("position"), std::string::npos) << error.what();
+    }
   }
+  EXPECT_NO_THROW((void)parse_motion("expr:x==y;x<=y;x!=y"));
   EXPECT_THROW((void)parse_motion("expr:1;2"), UsageError);
   EXPECT_THROW((void)parse_motion("expr:1;2;w"), UsageError);
   EXPECT_THROW((void)parse_motion("swirl"), UsageError);
   EXPECT_THROW((void)parse_motion("paper:-1"), UsageError);
+  for (const char* text : {"paper:", "enright:", "shear:", "normal:"})
+    EXPECT_THROW((void)parse_motion(text), UsageError) << text;
 }
 
 TEST(Fields, ASampledLinearFieldIsFoundAgainExactly) {
