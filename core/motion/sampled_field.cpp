@@ -15,6 +15,10 @@ struct Grid {
   Vec3 origin = Vec3::Zero();
   Vec3 spacing = Vec3::Ones();
   std::vector<Vec3> values;  ///< x runs fastest
+
+  [[nodiscard]] double points() const {
+    return static_cast<double>(count[0]) * static_cast<double>(count[1]) * static_cast<double>(count[2]);
+  }
 };
 
 class SampledField final : public VelocityField {
@@ -94,6 +98,12 @@ class Words {
   std::size_t line_ = 1;
 };
 
+/// A value takes six bytes at least: what a header claims beyond that is not there.
+void check_size(const Grid& grid, std::size_t bytes, const Words& words) {
+  if (grid.points() > static_cast<double>(bytes) / 6)
+    words.fail("DIMENSIONS ask for more points than the file holds");
+}
+
 Grid read_grid(std::string_view bytes, const std::string& name) {
   Words words(bytes, name);
   if (!words.rest_of_line().starts_with("# vtk DataFile")) {
@@ -108,20 +118,18 @@ Grid read_grid(std::string_view bytes, const std::string& name) {
     const std::string_view key = words.word();
     if (key == "DIMENSIONS") {
       for (std::size_t& count : grid.count) count = words.number<std::size_t>();
+      check_size(grid, bytes.size(), words);
     } else if (key == "ORIGIN") {
       for (int k = 0; k < 3; ++k) grid.origin[k] = words.number<double>();
     } else if (key == "SPACING" || key == "ASPECT_RATIO") {
       for (int k = 0; k < 3; ++k) grid.spacing[k] = words.number<double>();
+      if (!(grid.spacing.minCoeff() > 0)) words.fail("the spacing is not positive");
     } else {
       words.fail("expected DIMENSIONS, ORIGIN or SPACING");
     }
   }
-  if (!(grid.spacing.minCoeff() > 0)) words.fail("the spacing is not positive");
-  // A value takes six bytes at least: what a header claims beyond that is not there.
-  const double points = static_cast<double>(grid.count[0]) * static_cast<double>(grid.count[1]) *
-                        static_cast<double>(grid.count[2]);
-  if (!(points >= 1) || points > static_cast<double>(bytes.size()) / 6)
-    words.fail("DIMENSIONS ask for more points than the file holds");
+  if (grid.count[0] == 0) words.fail("DIMENSIONS are missing");
+  const double points = grid.points();
   words.expect("POINT_DATA");
   if (static_cast<double>(words.number<std::size_t>()) != points)
     words.fail("POINT_DATA does not count as many points as DIMENSIONS");

@@ -93,7 +93,12 @@ TEST(Fields, ASampledFileThatClaimsMoreThanItHoldsIsRefused) {
   const std::string path = testing::TempDir() + "isorelax_lying.vtk";
   std::ofstream(path) << "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_POINTS\n"
                          "DIMENSIONS 1000000 1000000 1000\nORIGIN 0 0 0\nSPACING 1 1 1\n";
-  EXPECT_THROW((void)read_sampled_field(path), InputError);
+  try {
+    (void)read_sampled_field(path);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(": line 5: DIMENSIONS"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
