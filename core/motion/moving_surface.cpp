@@ -15,6 +15,11 @@
 namespace isorelax {
 namespace {
 
+/// Of the time of the whole motion: shorter steps lead nowhere.
+constexpr double kLeastStepShare = 1e-10;
+/// Of the start's bounding box: how far a vertex may go.
+constexpr double kMostDiagonals = 1e9;
+
 double diagonal_of(std::span<const Vec3> x) {
   Vec3 low = x[0];
   Vec3 high = x[0];
@@ -151,18 +156,7 @@ double MovingSurface::move(std::vector<Vec3>& x, double time, double end, std::s
     report_.parts = offsetting_->propagate(motion_.speed, time, dt, x).parts;
     check_encloses(x, time + dt);
   } else if (options_.tolerance) {
-    const StepSizeControl control(*options_.tolerance * diagonal_);
-    const double least = 1e-10 * options_.step;
-    for (;;) {
-      const double error = integrator_->pair_step(x, time, dt, moved_);
-      const double next = control.next(dt, error);
-      if (control.accepts(error)) {
-        if (time + dt < end) proposed = next;
-        break;
-      }
-      if (next < least) throw MotionError(time, kNone, "no step is short enough for the tolerance");
-      dt = next;
-    }
+    dt = controlled_step(x, time, dt, end, proposed);
     if (options_.integration == Integration::face_offsetting)
       offset_along(x, time, dt);
     else
@@ -172,8 +166,38 @@ double MovingSurface::move(std::vector<Vec3>& x, double time, double end, std::s
   } else {
     integrator_->step(x, time, dt);
   }
+  check_in_reach(x, time + dt);
   report_.dt = dt;
   return dt;
+}
+
+/// Takes a step of dt or less, as error control has it, to `moved_`; returns its length. Near a time at which
+/// the motion has no end, steps would get shorter and shorter until time stands still.
+double MovingSurface::controlled_step(std::span<const Vec3> x, double time, double dt, double end,
+                                      double& proposed) {
+  const StepSizeControl control(*options_.tolerance * diagonal_);
+  const double least = kLeastStepShare * end;
+  for (;;) {
+    const StepError error = integrator_->pair_step(x, time, dt, moved_);
+    const double next = control.next(dt, error.largest);
+    const bool accepted = control.accepts(error.largest);
+    const bool arrives = accepted && !(time + dt < end);
+    if (next < least && !arrives)
+      throw MotionError(time, error.vertex, "no step is short enough for the tolerance");
+    if (accepted) {
+      if (!arrives) proposed = next;
+      return dt;
+    }
+    dt = next;
+  }
+}
+
+/// Farther away, a shape is lost to rounding.
+void MovingSurface::check_in_reach(std::span<const Vec3> x, double time) const {
+  for (Index v = 0; v < x.size(); ++v)
+    if (!((x[v] - start_[v]).norm() <= kMostDiagonals * diagonal_))
+      throw MotionError(
+          time, v, "the motion blows up: the vertex is over a billion times the mesh's size from its start");
 }
 
 /// A closed surface that propagates through itself can do so with every triangle on its side.

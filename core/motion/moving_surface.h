@@ -103,6 +103,8 @@ class MovingSurface {
   void make_carrier(const TriangleMesh& start);
   double next_dt(double time, std::size_t step, double proposed, double end) const;
   double move(std::vector<Vec3>& x, double time, double end, std::size_t step, double& proposed);
+  double controlled_step(std::span<const Vec3> x, double time, double dt, double end, double& proposed);
+  void check_in_reach(std::span<const Vec3> x, double time) const;
   void check_encloses(std::span<const Vec3> x, double time) const;
   void offset_along(std::vector<Vec3>& x, double time, double dt);
   bool choose_held(std::span<const Vec3> positions);

@@ -45,7 +45,7 @@ void RungeKutta::step(std::span<Vec3> x, double t, double dt) {
   std::ranges::copy(at_, x.begin());
 }
 
-double RungeKutta::pair_step(std::span<const Vec3> x, double t, double dt, std::vector<Vec3>& moved) {
+StepError RungeKutta::pair_step(std::span<const Vec3> x, double t, double dt, std::vector<Vec3>& moved) {
   slopes_.resize(kStages);
   for (std::vector<Vec3>& slope : slopes_) slope.resize(x.size());
   moved.resize(x.size());
@@ -57,14 +57,15 @@ double RungeKutta::pair_step(std::span<const Vec3> x, double t, double dt, std::
     }
     sample_field(*field_, moved, t + kNodes[k] * dt, threads_, slopes_[k]);
   }
-  double largest = 0;
+  StepError error;
   for (std::size_t i = 0; i < x.size(); ++i) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < kStages; ++k) sum += kErrorWeights[k] * slopes_[k][i];
-    largest = std::max(largest, dt * sum.norm());
+    const double own = dt * sum.norm();
+    if (own > error.largest) error = {own, static_cast<Index>(i)};
   }
   check_finite(moved, t + dt);  // the last stage stands at the fifth-order result
-  return largest;
+  return error;
 }
 
 double StepSizeControl::next(double dt, double error) const {

@@ -7,6 +7,12 @@
 
 namespace isorelax {
 
+/// The estimated error of a step: the largest of any point, in length units, and whose it is.
+struct StepError {
+  double largest = 0;
+  Index vertex = 0;
+};
+
 /// Moves points along a velocity field. Keeps its memory between steps.
 class RungeKutta {
  public:
@@ -16,10 +22,9 @@ class RungeKutta {
   /// were.
   void step(std::span<Vec3> x, double t, double dt);
 
-  /// One step of the embedded pair of Dormand and Prince (fifth order, with an estimate of fourth). Returns
-  /// the largest estimated error of a point, in length units; `moved` gets the points at t + dt. Throws
-  /// MotionError.
-  double pair_step(std::span<const Vec3> x, double t, double dt, std::vector<Vec3>& moved);
+  /// One step of the embedded pair of Dormand and Prince (fifth order, with an estimate of fourth); `moved`
+  /// gets the points at t + dt. Throws MotionError.
+  StepError pair_step(std::span<const Vec3> x, double t, double dt, std::vector<Vec3>& moved);
 
  private:
   const VelocityField* field_;

@@ -147,6 +147,36 @@ TEST(MovingSurface, AFieldThatBlowsUpNamesTimeAndVertexAndLeavesTheStateBefore) 
   }
 }
 
+TEST(MovingSurface, AMotionThatTakesVerticesOutOfReachEndsWithTimeAndVertex) {
+  const TriangleMesh mesh = paper_sphere(100);
+  // x' = 5 x^2 has no end at t = 1 / (5 x).
+  double farthest = 0;
+  for (const Vec3& x : mesh.positions) farthest = std::max(farthest, x.x());
+  for (const char* preset : {"none", "balanced"}) {
+    for (const auto& [field, controlled] :
+         {std::pair("expr:x*1000;0;0", false), std::pair("expr:exp(100*t);0;0", false),
+          std::pair("expr:exp(100*t);0;0", true), std::pair("expr:5*x*x;0;0", true)}) {
+      MovingSurfaceOptions options = preset_with_step(preset, 0.01);
+      if (controlled) options.tolerance = 1e-6;
+      MovingSurface surface(mesh, parse_motion(field), options);
+      std::vector<Vec3> last;
+      try {
+        while (surface.state().time < 1 && surface.state().step < 1000) {
+          last = surface.state().positions;
+          surface.advance(1);
+        }
+        ADD_FAILURE() << preset << " " << field << " went on";
+      } catch (const MotionError& error) {
+        EXPECT_NE(std::string(error.what()).find("vertex"), std::string::npos) << error.what();
+      }
+      EXPECT_EQ(surface.state().positions, last);
+      if (field == std::string("expr:5*x*x;0;0")) {
+        EXPECT_NEAR(surface.state().time, 1 / (5 * farthest), 1e-3);
+      }
+    }
+  }
+}
+
 TEST(MovingSurface, CreasesAndBordersKeepTheirVertices) {
   GenerateOptions shape;
   shape.triangles = 300;
