@@ -76,6 +76,11 @@ void MovingSurface::check(const TriangleMesh& start) const {
   if (!(options_.step > 0) || !std::isfinite(options_.step)) throw UsageError("the step is not positive");
   if (options_.tolerance && !(*options_.tolerance > 0)) throw UsageError("the tolerance is not positive");
   if (options_.every == 0) throw UsageError("redistribution every 0 steps");
+  if (!motion_.field)
+    for (Index v = 0; v < topology_.vertex_count(); ++v)
+      if ((topology_.flags(v) & kInconsistentVertex) != 0)
+        throw MeshError("triangles about vertex " + std::to_string(v) +
+                        " are oriented inconsistently: they have no common normal to move along");
   if (options_.redistribution == Redistribution::none) return;
   for (Index t = 0; t < triangles_.size(); ++t) {
     const Triangle& v = triangles_[t];

@@ -200,6 +200,10 @@ TEST(MovingSurface, RefusesWhatItCannotCarry) {
   MovingSurfaceOptions options = motion_preset("balanced");
   options.reference = MeshReference{std::vector<Vec3>(3, Vec3::Zero())};
   EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), options), MeshError);
+  std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
+  EXPECT_THROW(MovingSurface(mesh, parse_motion("normal:0.1"), motion_preset("none")), MeshError);
+  EXPECT_NO_THROW(MovingSurface(mesh, parse_motion("paper"), motion_preset("none")));
+  std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
   mesh.positions.emplace_back(0, 0, 0);
   EXPECT_THROW(MovingSurface(mesh, parse_motion("paper"), motion_preset("balanced")), MeshError);
 }
