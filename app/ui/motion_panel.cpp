@@ -83,11 +83,14 @@ Redistribution redistribution_of(const MotionChoices& motion) {
   return motion.redistribute.value_or(motion_preset(motion.preset).redistribution);
 }
 
+constexpr std::string_view kEdge = "equilateral:";
+
 // Options of another way to redistribute would be refused.
 void drop_what_does_not_fit(MotionChoices& motion) {
   const Redistribution way = redistribution_of(motion);
   if (way != Redistribution::tangent) motion.solver.reset(), motion.mu.reset();
   if (way != Redistribution::carrier) motion.keep_volume.reset();
+  if (way == Redistribution::carrier && motion.reference.starts_with(kEdge)) motion.reference = "equilateral";
 }
 
 void draw_preset(const Ui& ui) {
@@ -114,8 +117,7 @@ void draw_preset(const Ui& ui) {
 
 void draw_motion_reference(const Ui& ui) {
   constexpr std::array<std::string_view, 4> kLabels{"Mesh at the start", "Equilateral, mean area",
-                                                    "Equilateral, edge length", "Another file"};
-  constexpr std::string_view kEdge = "equilateral:";
+                                                    "Another file", "Equilateral, edge length"};
   constexpr const char* kTip =
       "What triangles ought to look like: as in the mesh in which the motion begins, equilateral, or as in a "
       "file "
@@ -124,12 +126,14 @@ void draw_motion_reference(const Ui& ui) {
   const bool edge = motion.reference.starts_with(kEdge);
   const int present = motion.reference == "initial"       ? 0
                       : motion.reference == "equilateral" ? 1
-                      : edge                              ? 2
-                                                          : 3;
+                      : edge                              ? 3
+                                                          : 2;
   row_label(ui, "Reference", kTip);
-  const int choice = combo(ui, "motion-reference", kLabels, present);
+  // Carrier moves scale references to the mesh's area.
+  const std::size_t count = redistribution_of(motion) == Redistribution::carrier ? 3 : 4;
+  const int choice = combo(ui, "motion-reference", std::span(kLabels).first(count), present);
   tooltip(ui, kTip);
-  if (choice == 3) {
+  if (choice == 2) {
     ask_for_file(ui, FilePurpose::motion_reference);
   } else if (choice >= 0 && choice != present) {
     motion.reference = choice == 0 ? "initial" : choice == 1 ? "equilateral" : "equilateral:0.01";
@@ -142,7 +146,7 @@ void draw_motion_reference(const Ui& ui) {
       motion.reference = std::string(kEdge) + exact_text(length);
       change_motion(ui, motion, "Edge length");
     }
-  } else if (present == 3) {
+  } else if (present == 2) {
     row_label(ui, "File", "A mesh with the same vertices; its positions give the reference.");
     if (button(ui, "motion-reference-file", std::filesystem::path(motion.reference).filename().string(),
                {.width = ImGui::GetContentRegionAvail().x}))

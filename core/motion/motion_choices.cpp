@@ -125,9 +125,8 @@ constexpr MotionOption kOptions[] = {
      [](const std::string& w, C& c) { c.mu = between("mu", w, 0, 1); },
      [](const C& c) { return c.mu ? digits_of(*c.mu) : std::string(); }},
     {"reference", "R",
-     "What triangles ought to look like: initial (default), equilateral, equilateral:EDGE, or a "
-     "mesh FILE "
-     "with the same vertices",
+     "What triangles ought to look like: initial (default), equilateral, a mesh FILE with the same vertices, "
+     "or, of tangent moves, equilateral:EDGE",
      [](const std::string& w, C& c) { c.reference = w; },
      [](const C& c) { return c.reference == C{}.reference ? std::string() : c.reference; }},
     {"every", "K", "Redistribute after every K-th step only (default 1)",
@@ -260,6 +259,11 @@ MovingSurfaceOptions motion_options_of(const MotionChoices& choices, std::vector
   if (choices.iterations) options.iterations = options.carrier.iterations = *choices.iterations;
   if (choices.mu) options.weights = EnergyWeights::from_mu(*choices.mu);
   options.reference = read_reference(choices.reference, notes);
+  if (options.redistribution == Redistribution::carrier &&
+      std::holds_alternative<EdgeLengthReference>(options.reference))
+    throw UsageError(
+        "--reference " + choices.reference +
+        ": carrier moves scale references to the mesh's area; an edge length is for tangent moves");
   options.every = choices.every;
   options.only_below_deg = choices.only_below_deg;
   options.balance_volume = choices.keep_volume.value_or(options.balance_volume);

@@ -63,6 +63,8 @@ TEST(MotionChoices, MistakesNameTheirOption) {
   EXPECT_NE(complaint({"preset", "best"}).find("expected none, paper"), std::string::npos);
   EXPECT_NE(complaint({"solver", "newton"}).find("--solver is for tangent moves"), std::string::npos);
   EXPECT_NE(complaint({"reference", "equilateral:0"}).find("positive edge length"), std::string::npos);
+  EXPECT_NE(complaint({"reference", "equilateral:0.02"}).find("for tangent moves"), std::string::npos);
+  EXPECT_TRUE(complaint({"preset", "paper", "reference", "equilateral:0.02"}).empty());
   EXPECT_TRUE(complaint({"preset", "paper", "solver", "newton", "mu", "0.3"}).empty());
 }
 
