@@ -33,12 +33,19 @@ constexpr const char* kAdvectNotes =
     "index\n"
     "for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step: "
     "angles, areas,\n"
-    "volume, folded edges, and the error where the exact surface is known. \"deviation\" is, of carrier "
-    "moves, the distance\n"
-    "between the mesh and the surface that the motion made of the start, at the vertices and the middles of "
-    "edges; of tangent\n"
-    "moves that of one step's moved vertices from the mesh before, which gathers. Lengths are those of the "
-    "mesh.\n"
+    "volume, folded edges, and the error where it is known: of spheres the distance of vertices from the "
+    "exact "
+    "one after\n"
+    "whole periods or at constant speed; in rigid and shear motion, that of vertices without redistribution "
+    "from their\n"
+    "exact places, of others from where the start's points nearest to them are taken. \"deviation\" is, of "
+    "carrier moves,\n"
+    "the distance between the mesh and the surface that the motion made of the start, at the vertices and "
+    "the "
+    "middles of\n"
+    "edges; of tangent moves that of one step's moved vertices from the mesh before, which gathers. Lengths "
+    "are those of\n"
+    "the mesh.\n"
     "\n"
     "Fields:\n"
     "  paper[:T]        Eq. (10) of the paper; reverses at T/2 (default T 3)\n"
@@ -240,9 +247,6 @@ class AdvectCommand : public Command {
       least = std::min(least, entry["min_angle_deg"].get<double>());
     }
     const Json& last = series.log().back();
-    double deviation = 0;
-    for (const Json& entry : series.log())
-      deviation = std::max(deviation, entry["deviation_max"].get<double>());
     console.message("time " + number_text(last["time"].get<double>()) + " after " +
                     std::to_string(last["step"].get<std::size_t>()) + " steps: smallest angle " +
                     number_text(last["min_angle_deg"].get<double>()) + " deg (" + number_text(least) +
@@ -250,7 +254,7 @@ class AdvectCommand : public Command {
                     number_text(last["mean_min_angle_deg"].get<double>()) + " deg, largest volume change " +
                     number_text(100 * volume) + " %");
     if (last.contains("error")) {
-      console.message("error against the exact surface " + number_text(last["error"]["max"].get<double>()) +
+      console.message("error against the exact motion " + number_text(last["error"]["max"].get<double>()) +
                       " at most, " + number_text(last["error"]["mean"].get<double>()) + " mean");
     }
     if (last.contains("exact")) {

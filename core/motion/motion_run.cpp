@@ -2,11 +2,19 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 
+#include "surface/closest_point.h"
 #include "surface/deviation.h"
 
 namespace isorelax {
 namespace {
+
+/// Vertices are points of the start that go with the flow.
+bool goes_with_flow(const MotionSetup& setup) {
+  return setup.options.redistribution == Redistribution::none &&
+         setup.options.integration == Integration::vertices;
+}
 
 SurfacePlacement placement_of(const MotionSetup& setup) {
   if (!setup.sphere) return {};
@@ -22,6 +30,13 @@ MotionRun::MotionRun(MotionSetup setup, unsigned dense_levels)
   if (dense_levels > 0) {
     if (!setup_.motion.field) throw UsageError("--exact is for velocity fields");
     dense_.emplace(setup_.start, dense_levels, placement_of(setup_), setup_.options.threads);
+  }
+  if (setup_.motion.place && !goes_with_flow(setup_)) {
+    nearest_ = placement_of(setup_);
+    if (!nearest_) {
+      auto index = std::make_shared<ClosestPointIndex>(setup_.start.positions, setup_.start.triangles);
+      nearest_ = [index](const Vec3& x) { return index->closest(x).point; };
+    }
   }
   const Deviation self =
       measure_deviation(setup_.start.positions, setup_.start.positions, setup_.start.triangles,
@@ -60,7 +75,20 @@ void MotionRun::advance() {
   if (dense_) dense_->advance(*setup_.motion.field, before, surface_.report().dt);
 }
 
+Distances MotionRun::error_of_place() const {
+  const MovingState& state = surface_.state();
+  const auto& place = setup_.motion.place;
+  DistanceSum sum;
+  for (std::size_t v = 0; v < state.positions.size(); ++v) {
+    const Vec3& x = state.positions[v];
+    const Vec3 from = nearest_ ? nearest_(place(x, -state.time)) : setup_.start.positions[v];
+    sum.add((x - place(from, state.time)).norm());
+  }
+  return sum.result();
+}
+
 std::optional<Distances> MotionRun::known_error() const {
+  if (setup_.motion.place) return error_of_place();
   if (!setup_.sphere) return std::nullopt;
   const double time = surface_.state().time;
   double radius = setup_.sphere->radius;

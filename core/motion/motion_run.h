@@ -16,8 +16,9 @@ struct MotionEntry {
   double volume_change = 0;  ///< (now - start) / start; 0 for a start that encloses none
   bool encloses = false;     ///< the start encloses a volume
   MovingReport report;
-  std::optional<Distances>
-      error;  ///< of the vertices from the exact surface, where that is known, length units
+  /// Where the exact motion is known, length units: of vertices that go with the flow from where it takes
+  /// them, of others from where it takes the start surface's points nearest to them.
+  std::optional<Distances> error;
   std::optional<std::pair<Distances, Distances>> exact;  ///< from the dense copy, and of it
   double seconds = 0;                                    ///< of the step, without what is measured
 };
@@ -44,10 +45,12 @@ class MotionRun {
 
  private:
   [[nodiscard]] std::optional<Distances> known_error() const;
+  [[nodiscard]] Distances error_of_place() const;
 
   MotionSetup setup_;
   MovingSurface surface_;
   std::optional<DenseCopy> dense_;
+  SurfacePlacement nearest_;  ///< of the start surface's points; null where none is asked for
   double start_volume_ = 0;
   bool encloses_ = false;
   double seconds_ = 0;

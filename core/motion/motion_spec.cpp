@@ -165,12 +165,14 @@ Motion make_motion(const FieldSpec& spec) {
       break;
     case FieldKind::rigid:
       motion.field = make_rigid_field(spec.rigid);
+      motion.place = [rigid = spec.rigid](const Vec3& x, double t) { return place_after(x, rigid, t); };
       motion.keeps_volume = true;
       break;
     case FieldKind::shear: {
       ShearMotion shear;
       shear.rate = spec.rate;
       motion.field = make_shear_field(shear);
+      motion.place = [shear](const Vec3& x, double t) { return place_after(x, shear, t); };
       motion.keeps_volume = true;
       break;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,8 +17,10 @@ struct Motion {
   std::shared_ptr<const VelocityField> field;  ///< null: `speed` moves it
   NormalSpeed speed;
   std::optional<double> constant_speed;  ///< where the speed is one number
-  bool keeps_volume = false;             ///< the field is known to have no divergence
-  std::optional<double> period;          ///< everything is back where it was after this time
+  /// Where a point is after a time, where that is known of the field; a negative time leads back.
+  std::function<Vec3(const Vec3& x, double t)> place;
+  bool keeps_volume = false;     ///< the field is known to have no divergence
+  std::optional<double> period;  ///< everything is back where it was after this time
 };
 
 /// What a motion can be; `FieldSpec` holds the numbers of each.

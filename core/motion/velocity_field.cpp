@@ -1,5 +1,6 @@
 #include "motion/velocity_field.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -103,10 +104,24 @@ std::unique_ptr<VelocityField> make_rigid_field(const RigidMotion& motion) {
     return motion.velocity + motion.rotation.cross(x - motion.centre);
   });
 }
+Vec3 place_after(const Vec3& x, const RigidMotion& motion, double t) {
+  const double pace = motion.rotation.norm();
+  if (!(pace > 0)) return x + t * motion.velocity;
+  const Vec3 axis = motion.rotation / pace;
+  const double angle = pace * t;
+  // The integral of the turned velocity.
+  const Vec3 along = axis.dot(motion.velocity) * axis;
+  const Vec3 way = t * along + std::sin(angle) / pace * (motion.velocity - along) +
+                   (1 - std::cos(angle)) / pace * axis.cross(motion.velocity);
+  return motion.centre + Eigen::AngleAxisd(angle, axis) * (x - motion.centre) + way;
+}
 std::unique_ptr<VelocityField> make_shear_field(const ShearMotion& motion) {
   return make_function_field([motion](const Vec3& x, double) -> Vec3 {
     return motion.rate * (x - motion.centre).dot(motion.across) * motion.along;
   });
+}
+Vec3 place_after(const Vec3& x, const ShearMotion& motion, double t) {
+  return x + t * motion.rate * (x - motion.centre).dot(motion.across) * motion.along;
 }
 std::unique_ptr<VelocityField> make_function_field(std::function<Vec3(const Vec3&, double)> function) {
   return std::make_unique<FunctionField>(std::move(function));

@@ -43,6 +43,8 @@ struct RigidMotion {
   Vec3 velocity = Vec3::Zero();
 };
 std::unique_ptr<VelocityField> make_rigid_field(const RigidMotion& motion);
+/// Where a point is after a time.
+[[nodiscard]] Vec3 place_after(const Vec3& x, const RigidMotion& motion, double t);
 
 /// A shear: u = rate * ((x - centre) . across) * along.
 struct ShearMotion {
@@ -52,6 +54,8 @@ struct ShearMotion {
   Vec3 centre = Vec3::Zero();
 };
 std::unique_ptr<VelocityField> make_shear_field(const ShearMotion& motion);
+/// Where a point is after a time. Precondition: along and across are orthogonal.
+[[nodiscard]] Vec3 place_after(const Vec3& x, const ShearMotion& motion, double t);
 
 /// Any function.
 std::unique_ptr<VelocityField> make_function_field(std::function<Vec3(const Vec3&, double)> function);

@@ -47,6 +47,17 @@ TEST(Fields, RigidMotionReadsItsThreeVectors) {
   EXPECT_LT((motion.field->at({2, 0, 0}, 0) - Vec3(0, 2, 10)).norm(), 1e-15);
 }
 
+TEST(Fields, WhereRigidAndShearMotionLeadIsWhereTheirFieldsDo) {
+  for (const char* text : {"rigid:1,2,3@0.1,0,0.4+1,-1,0.5", "rigid:0,0,0+1,2,3", "shear:2"}) {
+    const Motion motion = parse_motion(text);
+    const Vec3 start(0.3, 0.6, 0.8);
+    EXPECT_LT((motion.place(motion.place(start, 0.7), -0.7) - start).norm(), 1e-14) << text;
+    constexpr double kStep = 1e-5;
+    const Vec3 slope = (motion.place(start, 0.7 + kStep) - motion.place(start, 0.7 - kStep)) / (2 * kStep);
+    EXPECT_LT((motion.field->at(motion.place(start, 0.7), 0) - slope).norm(), 1e-8) << text;
+  }
+}
+
 TEST(Fields, ExpressionsKnowCoordinatesAndTime) {
   const Motion motion = parse_motion("expr:-y*t;sin(pi*x);z^2");
   EXPECT_LT((motion.field->at({0.5, 2, 3}, 4) - Vec3(-8, 1, 9)).norm(), 1e-14);
