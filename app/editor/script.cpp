@@ -11,6 +11,7 @@
 #include "editor/screenshot.h"
 #include "editor/script_words.h"
 #include "editor/view_words.h"
+#include "editor/word_values.h"
 #include "mesh/error.h"
 #include "model/motion_jobs.h"
 #include "render/offscreen.h"
@@ -147,7 +148,7 @@ class Player {
     }
     const auto found = std::ranges::find(handlers_, words.front(), &Handler::name);
     if (found == handlers_.end()) throw UsageError("\"" + words.front() + "\" is no command");
-    if (words.size() <= found->least) throw UsageError(words.front() + ": something is missing");
+    require(words, found->least, found->most);
     (this->*found->act)(words);
     settle();
   }
@@ -199,7 +200,7 @@ class Player {
   }
 
   void camera(Words words) {
-    if (words.size() > 3)
+    if (words.size() > 2)
       editor_.look(parse_camera_words(words));
     else
       editor_.look(words[1]);
@@ -306,24 +307,25 @@ class Player {
     return predicate.holds(now) ? std::string() : "does not hold: " + predicate.text();
   }
 
+  static constexpr std::size_t kAnyNumber = 1000;
   struct Handler {
     std::string_view name;
-    std::size_t least;  // words behind it
+    std::size_t least, most;  // words behind it
     void (Player::*act)(Words);
   };
-  static constexpr std::array<Handler, 13> handlers_{{{"run", 0, &Player::run},
-                                                      {"screenshot", 1, &Player::screenshot},
-                                                      {"picture", 1, &Player::picture},
-                                                      {"size", 1, &Player::resize},
-                                                      {"camera", 1, &Player::camera},
-                                                      {"frame", 0, &Player::frame_mesh},
-                                                      {"fly", 0, &Player::fly},
-                                                      {"tab", 1, &Player::tab},
-                                                      {"show", 1, &Player::show},
-                                                      {"click", 1, &Player::click},
-                                                      {"key", 1, &Player::key},
-                                                      {"type", 1, &Player::type},
-                                                      {"expect", 1, &Player::expect}}};
+  static constexpr std::array<Handler, 13> handlers_{{{"run", 0, 1, &Player::run},
+                                                      {"screenshot", 1, 1, &Player::screenshot},
+                                                      {"picture", 1, 1, &Player::picture},
+                                                      {"size", 1, 1, &Player::resize},
+                                                      {"camera", 1, kAnyNumber, &Player::camera},
+                                                      {"frame", 0, 0, &Player::frame_mesh},
+                                                      {"fly", 0, 0, &Player::fly},
+                                                      {"tab", 1, 1, &Player::tab},
+                                                      {"show", 1, 2, &Player::show},
+                                                      {"click", 1, 1, &Player::click},
+                                                      {"key", 1, 1, &Player::key},
+                                                      {"type", 1, kAnyNumber, &Player::type},
+                                                      {"expect", 1, kAnyNumber, &Player::expect}}};
 
   ScriptOptions options_;
   std::filesystem::path folder_, pictures_;

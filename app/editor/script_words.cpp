@@ -180,6 +180,11 @@ Parser plain() {
   };
 }
 
+model::Command step_stage(Words words, int direction) {
+  require(words, 0, 0);
+  return model::StepStage{direction};
+}
+
 template <typename C>
 Parser with_path() {
   return [](Words words, const model::Session&, const std::filesystem::path& folder) -> model::Command {
@@ -259,8 +264,8 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
       {"set", [](Words w, const S& s, const path&) { return to_settings(w, s); }},
       {"seek", [](Words w, const S& s, const path&) { return to_seek(w, s); }},
       {"stage", [](Words w, const S&, const path&) -> model::Command { return to_stage(w); }},
-      {"next-stage", [](Words, const S&, const path&) -> model::Command { return model::StepStage{1}; }},
-      {"previous-stage", [](Words, const S&, const path&) -> model::Command { return model::StepStage{-1}; }},
+      {"next-stage", [](Words w, const S&, const path&) { return step_stage(w, 1); }},
+      {"previous-stage", [](Words w, const S&, const path&) { return step_stage(w, -1); }},
       {"limited", [](Words w, const S&, const path&) -> model::Command { return to_limited(w); }},
       {"view",
        [](Words w, const S& s, const path&) -> model::Command { return parse_view_words(w, s.view); }},
@@ -272,7 +277,7 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
        [](Words w, const S& s, const path&) -> model::Command {
          return with_breakpoint(w, s, model::BreakAction::log);
        }},
-      {"no-breaks", [](Words, const S&, const path&) -> model::Command { return model::SetBreakpoints{}; }},
+      {"no-breaks", plain<model::SetBreakpoints>()},
       {"beside",
        [](Words w, const S& s, const path&) -> model::Command { return model::ShowBranches{to_runs(w, s)}; }},
       {"compare",

@@ -33,8 +33,9 @@ void Executor::operator()(const SaveTrace& command) {
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
   const unsigned branch = s_.timeline.cursor.branch;
   if (s_.timeline.branches[branch].motion) {
-    say(MessageKind::info,
-        "A trace is of a smoother. isorelax advect writes the states of a moving surface.");
+    say(MessageKind::error,
+        "A motion has no trace: a trace is of a smoother. isorelax advect writes the states of a moving "
+        "surface.");
     return;
   }
   s_.engine.post("", save_trace_job(path_of(branch, s_.timeline.branches[branch].tip()), command.path));

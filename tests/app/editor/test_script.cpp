@@ -75,6 +75,11 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   EXPECT_NE(complaint("click nowhere\n").find("nowhere"), std::string::npos);
   EXPECT_NE(complaint("break min_angle <\n").find("column"), std::string::npos);
   EXPECT_NE(complaint("open 'square.off\n").find("quote"), std::string::npos);
+  for (const char* wrong : {"run 2 3", "frame 1", "no-breaks 1", "next-stage 2", "tab runs 1",
+                            "camera iso top", "show split original 1", "screenshot a.png b.png"}) {
+    const std::string told = complaint("open square.off\n" + std::string(wrong) + "\n");
+    EXPECT_NE(told.find("a.script: line 2: "), std::string::npos) << wrong << ": " << told;
+  }
   EXPECT_THROW((void)run_script({.file = folder / "none.script", .pictures = {}, .size = kSize, .scale = 1}),
                InputError);
 }
@@ -102,6 +107,13 @@ TEST_F(ScriptTest, MistakesAndWhatCannotBeWrittenAreErrorsOfTheirKinds) {
     EXPECT_THROW((void)play(text), OutputError) << writer;
     EXPECT_NE(complaint(text).find("a.script: line 2: "), std::string::npos) << complaint(text);
   }
+}
+
+TEST_F(ScriptTest, AMotionHasNoTraceToSave) {
+  (void)folder.make_square();
+  const std::string told =
+      complaint("open square.off\nmotion field shear\nmotion run 2\nsave-trace a.trace\n");
+  EXPECT_NE(told.find("a.script: line 4: save-trace: A motion has no trace"), std::string::npos) << told;
 }
 
 TEST_F(ScriptTest, ATypedRangeIsWrittenDownAndRead) {
