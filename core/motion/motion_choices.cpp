@@ -42,6 +42,9 @@ unsigned count_from(std::string_view option, const std::string& word, unsigned l
   return value;
 }
 
+/// A run keeps a record of each.
+constexpr double kMostSteps = 1e7;
+
 /// Words with a meaning each.
 template <typename Value, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, Value>, N>;
@@ -279,6 +282,9 @@ MotionSetup set_up_motion(const MotionChoices& choices, std::optional<TriangleMe
   if (!setup.motion.field && setup.options.tolerance)
     throw UsageError("--tolerance is for velocity fields: motion along normals takes fixed steps");
   setup.until = end_time(choices);
+  if (!(setup.until <= kMostSteps * choices.step))
+    throw UsageError("--step " + digits_of(choices.step) + ": until " + digits_of(setup.until) +
+                     " that would be more than 10 million steps");
   if (start) {
     setup.start = std::move(*start);
   } else {
