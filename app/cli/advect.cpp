@@ -114,6 +114,8 @@ class AdvectCommand : public Command {
     if (output_.empty() == resume_.empty()) throw UsageError("advect: give --output DIR or --resume STATE");
     if (!figure_.empty()) render::require_png_name(figure_);
     check_outputs({{{"--figure", figure_}}}, {input_, resume_});
+    static_cast<void>(pictures());  // a mistake in the camera is told now, not after the run
+    watch_.emplace();
     return resume_.empty() ? begin(console) : resume(console);
   }
 
@@ -267,11 +269,13 @@ class AdvectCommand : public Command {
     }
   }
 
+  [[nodiscard]] MotionPictures pictures() const { return {camera_, 900, 760}; }
+
   void draw(Console& console, const MotionSeries& series) const {
     if (!pictures_ && figure_.empty()) return;
     const std::vector<std::filesystem::path> states = series.states();
-    MotionPictures pictures(camera_, 900, 760);
-    for (const std::filesystem::path& path : states) pictures.look_at(read_mesh(path).mesh);
+    MotionPictures drawing = pictures();
+    for (const std::filesystem::path& path : states) drawing.look_at(read_mesh(path).mesh);
     constexpr std::size_t kPanels = 6;
     std::vector<render::Image> panels;
     std::vector<std::size_t> chosen;
@@ -283,7 +287,7 @@ class AdvectCommand : public Command {
       const bool panel = !figure_.empty() && std::ranges::find(chosen, i) != chosen.end();
       if (!pictures_ && !panel) continue;
       const MovingState state = read_state(states[i]);
-      const render::Image image = pictures.draw(read_mesh(states[i]).mesh, "t = " + number_text(state.time));
+      const render::Image image = drawing.draw(read_mesh(states[i]).mesh, "t = " + number_text(state.time));
       if (pictures_) render::write_png(std::filesystem::path(states[i]).replace_extension(".png"), image);
       if (panel) panels.push_back(image);
     }

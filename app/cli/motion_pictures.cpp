@@ -1,6 +1,7 @@
 #include "cli/motion_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,12 @@ std::vector<Vec3> many_directions() {
 }
 
 }  // namespace
+
+MotionPictures::MotionPictures(std::string camera, int width, int height)
+    : camera_(std::move(camera)), width_(width), height_(height) {
+  static_cast<void>(
+      render::parse_camera(camera_, std::array<Vec3, 2>{Vec3::Zero(), Vec3::Ones()}, {width_, height_}));
+}
 
 void MotionPictures::look_at(const TriangleMesh& mesh) {
   std::vector<double> areas = face_metric(FaceMetric::area, mesh.positions, mesh.triangles);

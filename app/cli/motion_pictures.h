@@ -14,9 +14,8 @@ namespace isorelax::cli {
 /// coloured by area, relative to the mean area of the first mesh, on one range.
 class MotionPictures {
  public:
-  /// `camera`: see render::parse_camera.
-  MotionPictures(std::string camera, int width, int height)
-      : camera_(std::move(camera)), width_(width), height_(height) {}
+  /// `camera`: see render::parse_camera. Throws UsageError for what is none.
+  MotionPictures(std::string camera, int width, int height);
 
   /// Looks at a mesh that will be drawn: all of them come here before the first picture.
   void look_at(const TriangleMesh& mesh);

@@ -93,9 +93,12 @@ TEST(AdvectCommand, AFieldThatFailsLeavesWhatWasWritten) {
 TEST(AdvectCommand, MistakesAreToldBeforeAnythingIsWritten) {
   const Workspace workspace;
   const std::string folder = workspace.path("run");
-  for (const char* options : {"--field swirl", "--preset best", "--sphere 3", "--sphere 100:-1",
-                              "--field 'expr:1;2'", "--step nan", "--preset none --volume keep", "--mu 0.5",
-                              "--field normal:1 --tolerance 1e-6", "--reference equilateral:0"}) {
+  for (const char* options :
+       {"--field swirl", "--preset best", "--sphere 3", "--sphere 100:-1", "--field 'expr:1;2'", "--step nan",
+        "--preset none --volume keep", "--mu 0.5", "--field normal:1 --tolerance 1e-6",
+        "--reference equilateral:0", "--reference equilateral:0.02", "--step 1e-300",
+        "--step 1e-25 --tolerance 1e-6", "--until 1e300", "--camera nowhere",
+        "--pictures --camera iso:zoom=x"}) {
     const Outcome outcome = run_program("advect -o " + folder + " " + options);
     EXPECT_EQ(outcome.status, 2) << options << ": " << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder)) << options;
