@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -27,6 +28,18 @@ void note_interrupt(int) {
   interrupted.store(true);
   std::signal(SIGINT, SIG_DFL);
 }
+
+/// Notes interrupts as long as it lives.
+class InterruptWatch {
+ public:
+  InterruptWatch() : previous_(std::signal(SIGINT, note_interrupt)) {}
+  ~InterruptWatch() { std::signal(SIGINT, previous_); }
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  void (*previous_)(int);
+};
 
 constexpr const char* kAdvectNotes =
     "A mesh is carried by a motion; its connectivity never changes. DIR gets the start, every N-th state, an "
@@ -132,10 +145,9 @@ class AdvectCommand : public Command {
     const auto start = setup.start;
     const unsigned levels = exact_ ? dense_levels(start) : 0;
     MotionRun run = make_run(std::move(setup), levels);
-    if (save_every_ == 0) {
-      constexpr double kStates = 30;
-      save_every_ = static_cast<unsigned>(
-          std::max(1.0, std::round(run.setup().until / run.setup().options.step / kStates)));
+    if (interrupted.load()) {
+      console.error("cancelled before anything was written");
+      return kCheckFailed;
     }
     MotionSeries series(output_);
     Json words = Json::array();
@@ -210,8 +222,6 @@ class AdvectCommand : public Command {
   }
 
   int go(Console& console, MotionSeries& series, MotionRun& run) {
-    interrupted.store(false);
-    const auto previous = std::signal(SIGINT, note_interrupt);
     int status = kDone;
     try {
       Progress progress(console, "advecting");
@@ -231,11 +241,10 @@ class AdvectCommand : public Command {
         status = kCheckFailed;
       }
     } catch (...) {
-      std::signal(SIGINT, previous);
       series.write_log();
       throw;
     }
-    std::signal(SIGINT, previous);
+    watch_.reset();
     if (status == kDone) tell(console, series);
     draw(console, series);
     return status;
@@ -300,7 +309,9 @@ class AdvectCommand : public Command {
   CLI::App* app_ = nullptr;
   std::string input_, output_, resume_, figure_, camera_ = "fit";
   MotionSpec motion_;
-  unsigned save_every_ = 0;
+  std::optional<InterruptWatch> watch_;
+  unsigned save_every_ = 0;   ///< 0: states are chosen by time
+  double save_interval_ = 0;  ///< of time
   bool vtk_ = false, exact_ = false, pictures_ = false, quiet_ = false;
 };
 

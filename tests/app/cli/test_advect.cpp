@@ -128,5 +128,19 @@ TEST(AdvectCommand, AnInterruptedRunWritesItsStateAndGoesOnFromIt) {
   EXPECT_EQ(series.size(), 2U);
 }
 
+TEST(AdvectCommand, AnInterruptBeforeTheFirstStateLeavesNothing) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  // Once the program is there and catches SIGINT, a bit of the lowest hexadecimal digit.
+  const Outcome outcome = run_program("advect --sphere 12000 --exact -o " + folder +
+                                      " & pid=$!; until grep -q isorelax /proc/$pid/comm && grep -q "
+                                      "'SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.01; done; "
+                                      "kill -INT $pid; wait $pid");
+  EXPECT_EQ(outcome.status, 1);
+  expect_one_error_line(outcome);
+  EXPECT_NE(outcome.err.find("cancelled before anything was written"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
 }  // namespace
 }  // namespace isorelax::test
