@@ -1,8 +1,10 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -107,7 +109,8 @@ class AdvectCommand : public Command {
     app.add_option("IN", input_, "Mesh to start from: " + format_names() + "; none: a sphere");
     app.add_option("-o,--output", output_, "Folder to write")->type_name("DIR");
     app.add_option("--resume", resume_,
-                   "Go on from this state of an earlier run, in its folder, with its options")
+                   "Go on from this state of an earlier run, in its folder, with its options; --threads may "
+                   "differ")
         ->type_name("STATE");
     motion_.declare(app);
     app.add_option("--save-every", save_every_, "Write every N-th state (default: about 30 in all)")
@@ -134,6 +137,7 @@ class AdvectCommand : public Command {
 
  private:
   static constexpr unsigned kDenseTriangles = 200000;
+  static constexpr double kStates = 30;
 
   /// Two cuts of every triangle into four, one where that would be too many.
   static unsigned dense_levels(const TriangleMesh& start) {
@@ -149,49 +153,82 @@ class AdvectCommand : public Command {
       console.error("cancelled before anything was written");
       return kCheckFailed;
     }
+    if (save_every_ == 0) choose_states(run.setup());
     MotionSeries series(output_);
-    Json words = Json::array();
-    for (const std::string& word : motion_.words()) words.push_back(word);
-    series.begin(start, {{"program", "isorelax " ISORELAX_VERSION},
-                         {"input", input_},
-                         {"options", std::move(words)},
-                         {"save_every", save_every_},
-                         {"vtk", vtk_},
-                         {"exact", exact_}});
+    Json asked = {{"program", "isorelax " ISORELAX_VERSION},
+                  {"input", input_},
+                  {"options", motion_.words()},
+                  {"vtk", vtk_},
+                  {"exact", exact_}};
+    if (save_every_ > 0)
+      asked["save_every"] = save_every_;
+    else
+      asked["save_interval"] = save_interval_;
+    series.begin(start, asked);
     record(series, run);
     series.write_state(run, vtk_);
     return go(console, series, run);
   }
 
-  int resume(Console& console) {
+  /// Steps of error control are as many as they come to: their states are chosen by time.
+  void choose_states(const MotionSetup& setup) {
+    if (setup.options.tolerance)
+      save_interval_ = setup.until / kStates;
+    else
+      save_every_ =
+          static_cast<unsigned>(std::max(1.0, std::round(setup.until / setup.options.step / kStates)));
+  }
+
+  /// What run.json says of the states that are written.
+  void read_states_chosen(const Json& asked) {
+    if (asked.contains("save_interval")) {
+      save_interval_ = asked["save_interval"].get<double>();
+      if (!(save_interval_ > 0)) throw UsageError("save_interval is no number over 0");
+      return;
+    }
+    const Json& every = asked.at("save_every");
+    constexpr unsigned kMost = std::numeric_limits<unsigned>::max();
+    if (!every.is_number_unsigned() || every == 0U || every > kMost)
+      throw UsageError("save_every is no whole number of 1 or more");
+    save_every_ = every.get<unsigned>();
+  }
+
+  /// Options that were typed beside --resume: all but the number of threads are those of the run.
+  [[nodiscard]] std::vector<std::string> words_beside_resume() const {
     if (!input_.empty()) throw UsageError("--resume and a mesh: the run starts from its own");
+    std::vector<std::string> words = motion_.words();
+    std::string other;
+    for (std::size_t k = 0; k < words.size(); k += 2)
+      if (words[k] != "--threads") other = words[k];
+    if (save_every_ > 0) other = "--save-every";
+    if (vtk_) other = "--vtk";
+    if (exact_) other = "--exact";
+    if (!other.empty())
+      throw UsageError("--resume takes the options of run.json; " + other + " cannot be changed");
+    return words;
+  }
+
+  int resume(Console& console) {
+    const std::vector<std::string> typed = words_beside_resume();
     const std::filesystem::path state_path(resume_);
     const std::filesystem::path folder = state_path.parent_path().empty() ? "." : state_path.parent_path();
     const MovingState state = read_state(state_path);
-    if (!motion_.words().empty())
-      throw UsageError("--resume takes the options of run.json; " + motion_.words().front() +
-                       " cannot be changed");
-    Json asked;
-    std::vector<std::string> words;
-    std::string input;
+    MotionSetup setup;
     try {
-      asked = Json::parse(read_bytes(folder / "run.json"));
-      words = asked.at("options").get<std::vector<std::string>>();
-      input = asked.at("input").get<std::string>();
-      save_every_ = asked.at("save_every").get<unsigned>();
+      const Json asked = Json::parse(read_bytes(folder / "run.json"));
+      MotionSpec spec;
+      spec.read(asked.at("options").get<std::vector<std::string>>());
+      spec.read(typed);
+      read_states_chosen(asked);
       vtk_ = asked.at("vtk").get<bool>();
       exact_ = asked.at("exact").get<bool>();
+      const bool from_mesh = !asked.at("input").get<std::string>().empty();
+      setup = spec.set_up(console, from_mesh ? (folder / "start.ply").string() : "");
     } catch (const nlohmann::json::exception& error) {
       throw InputError((folder / "run.json").string(), "", error.what());
-    }
-    MotionSpec spec;
-    try {
-      spec.read(words);
     } catch (const UsageError& error) {
-      throw InputError((folder / "run.json").string(), "",
-                       std::string("options not understood: ") + error.what());
+      throw InputError((folder / "run.json").string(), "", error.what());
     }
-    MotionSetup setup = spec.set_up(console, input.empty() ? "" : (folder / "start.ply").string());
     const unsigned levels = exact_ ? dense_levels(setup.start) : 0;
     MotionRun run = make_run(std::move(setup), levels);
     try {
@@ -214,7 +251,11 @@ class AdvectCommand : public Command {
   }
 
   [[nodiscard]] bool writes(const MotionRun& run) const {
-    return run.done() || run.surface().state().step % save_every_ == 0;
+    const MovingState& state = run.surface().state();
+    if (run.done() || state.step == 0) return true;
+    if (save_every_ > 0) return state.step % save_every_ == 0;
+    const double before = state.time - run.surface().report().dt;
+    return std::floor(state.time / save_interval_) > std::floor(before / save_interval_);
   }
 
   void record(MotionSeries& series, const MotionRun& run) const {

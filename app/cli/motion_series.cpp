@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
 #include "io/text_out.h"
+#include "trace/trace.h"
 
 namespace isorelax::cli {
 namespace {
@@ -20,6 +21,24 @@ std::string state_name(std::size_t step) {
   return "state_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
 }
 
+/// Of all that a run goes on from.
+std::string checksum_of(const MovingState& state) {
+  std::string bytes;
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  add(static_cast<std::uint64_t>(state.step));
+  add(state.time);
+  add(state.next_step);
+  for (const Vec3& x : state.positions)
+    for (const double coordinate : x) add(coordinate);
+  for (const MaterialPoint& point : state.points) {
+    add(point.triangle);
+    for (const double weight : point.weights) add(weight);
+  }
+  return hash_of(bytes);
+}
+
 TriangleMesh state_mesh(const MotionRun& run) {
   const MovingState& state = run.surface().state();
   TriangleMesh mesh = run.mesh();
@@ -28,6 +47,7 @@ TriangleMesh state_mesh(const MotionRun& run) {
   append_number(comment, state.time);
   comment += " next_step ";
   append_number(comment, state.next_step);
+  comment += " checksum " + checksum_of(state);
   mesh.attributes.comments.push_back(comment);
   if (state.points.empty()) return mesh;
   Attribute triangle{"material_triangle", ScalarType::uint32, 1, {}};
@@ -69,6 +89,30 @@ std::string vtp_text(const TriangleMesh& mesh) {
 
 Json distances_json(const Distances& distances) {
   return {{"max", distances.max}, {"rms", distances.rms}, {"mean", distances.mean}};
+}
+
+/// Empty where a mesh has none.
+std::vector<MaterialPoint> material_points(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  const auto column = [&](const std::string& name) -> const std::vector<double>* {
+    for (const Attribute& attribute : mesh.attributes.vertex)
+      if (attribute.name == name && attribute.width == 1) return &attribute.values;
+    return nullptr;
+  };
+  const std::vector<double>* triangles = column("material_triangle");
+  if (triangles == nullptr) return {};
+  std::vector<MaterialPoint> points(mesh.positions.size());
+  for (const double number : *triangles)
+    if (!(number >= 0 && number < kNone))
+      throw InputError(path.string(), "", "its material points are not whole");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<double>* weights = column("material_weight_" + std::to_string(k));
+    if (weights == nullptr) throw InputError(path.string(), "", "its material points are not whole");
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      points[v].triangle = static_cast<Index>((*triangles)[v]);
+      points[v].weights[static_cast<Eigen::Index>(k)] = (*weights)[v];
+    }
+  }
+  return points;
 }
 
 }  // namespace
@@ -161,9 +205,15 @@ void MotionSeries::resume_at(std::size_t step) {
   try {
     const Json log = Json::parse(read_bytes(folder_ / "log.json"));
     for (const Json& entry : log.at("steps")) {
-      if (entry.at("step").get<std::size_t>() > step) break;
+      if (log_.size() > step) break;
+      if (entry.at("step").get<std::size_t>() != log_.size()) break;
+      for (const char* key : {"time", "min_angle_deg", "volume_change"})
+        static_cast<void>(entry.at(key).get<double>());
       log_.push_back(entry);
     }
+    if (log_.size() <= step)
+      throw InputError((folder_ / "log.json").string(), "",
+                       "step " + std::to_string(log_.size()) + " is missing");
     const Json index = Json::parse(read_bytes(folder_ / "states.ply.series"));
     for (const Json& file : index.at("files")) {
       const std::string name = file.at("name").get<std::string>();
@@ -182,43 +232,27 @@ void MotionSeries::resume_at(std::size_t step) {
 MovingState read_state(const std::filesystem::path& path) {
   const MeshFile file = read_mesh(path);
   MovingState state;
-  bool found = false;
+  std::string checksum;
   for (const std::string& comment : file.mesh.attributes.comments) {
     if (!comment.starts_with(kStateSign)) continue;
     std::istringstream words(comment.substr(kStateSign.size()));
-    std::array<std::string, 6> word;
+    std::array<std::string, 8> word;
     for (std::string& w : word) words >> w;
     const auto step = parse_number(word[1]);
     const auto time = parse_number(word[3]);
     const auto next = parse_number(word[5]);
-    if (!step || !time || !next || !(*step >= 0))
+    if (!step || !time || !next || !(*step >= 0) || word[7].empty())
       throw InputError(path.string(), "", "its state comment is damaged");
     state.step = static_cast<std::size_t>(*step);
     state.time = *time;
     state.next_step = *next;
-    found = true;
+    checksum = word[7];
   }
-  if (!found) throw InputError(path.string(), "", "not a state of isorelax advect");
+  if (checksum.empty()) throw InputError(path.string(), "", "not a state of isorelax advect");
   state.positions = file.mesh.positions;
-  const auto column = [&](const std::string& name) -> const std::vector<double>* {
-    for (const Attribute& attribute : file.mesh.attributes.vertex)
-      if (attribute.name == name && attribute.width == 1) return &attribute.values;
-    return nullptr;
-  };
-  const std::vector<double>* triangles = column("material_triangle");
-  if (triangles == nullptr) return state;
-  state.points.resize(state.positions.size());
-  for (const double number : *triangles)
-    if (!(number >= 0 && number < kNone))
-      throw InputError(path.string(), "", "its material points are not whole");
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::vector<double>* weights = column("material_weight_" + std::to_string(k));
-    if (weights == nullptr) throw InputError(path.string(), "", "its material points are not whole");
-    for (std::size_t v = 0; v < state.points.size(); ++v) {
-      state.points[v].triangle = static_cast<Index>((*triangles)[v]);
-      state.points[v].weights[static_cast<Eigen::Index>(k)] = (*weights)[v];
-    }
-  }
+  state.points = material_points(path, file.mesh);
+  if (checksum_of(state) != checksum)
+    throw InputError(path.string(), "", "is damaged: it has not the checksum that was written into it");
   return state;
 }
 

@@ -101,10 +101,81 @@ TEST(AdvectCommand, MistakesAreToldBeforeAnythingIsWritten) {
         "--pictures --camera iso:zoom=x"}) {
     const Outcome outcome = run_program("advect -o " + folder + " " + options);
     EXPECT_EQ(outcome.status, 2) << options << ": " << outcome.err;
+    expect_one_error_line(outcome);
     EXPECT_FALSE(std::filesystem::exists(folder)) << options;
   }
   EXPECT_EQ(run_program("advect").status, 2);
   EXPECT_EQ(run_program("advect --resume " + workspace.write("no.ply", "nothing")).status, 3);
+}
+
+TEST(AdvectCommand, DamagedFilesAreToldAndLeftAsTheyAre) {
+  const Workspace workspace;
+  const std::string folder = workspace.path("run");
+  ASSERT_EQ(run_program("advect --sphere 50 --step 0.1 --until 0.3 --save-every 1 -o " + folder).status, 0);
+  const auto refused_with = [&](const std::string& file, const std::string& damaged) {
+    const std::string whole = contents(folder + "/" + file);
+    ASSERT_NE(whole, damaged) << file;
+    static_cast<void>(workspace.write("run/" + file, damaged));
+    const Outcome outcome = run_program("advect --resume " + folder + "/state_000002.ply");
+    EXPECT_EQ(outcome.status, 3) << file << ": " << outcome.err;
+    expect_one_error_line(outcome);
+    EXPECT_EQ(contents(folder + "/" + file), damaged);
+    static_cast<void>(workspace.write("run/" + file, whole));
+  };
+  const Json run = Json::parse(contents(folder + "/run.json"));
+  for (const Json& value : {Json(0), Json(-2), Json(1.5), Json("1")}) {
+    Json damaged = run;
+    damaged["save_every"] = value;
+    refused_with("run.json", damaged.dump());
+  }
+  Json damaged = run;
+  damaged["options"] = {"--sphere", "50", "--step", "1e-300"};
+  refused_with("run.json", damaged.dump());
+  refused_with("log.json", R"({"steps":[]})");
+  std::string state = contents(folder + "/state_000002.ply");
+  const std::size_t first = state.find("end_header\n") + 11;
+  state[first] = static_cast<char>(state[first] ^ 1);
+  refused_with("state_000002.ply", state);
+  const Outcome sound = run_program("advect --threads 2 --resume " + folder + "/state_000002.ply");
+  EXPECT_EQ(sound.status, 0) << sound.err;
+  EXPECT_EQ(run_program("advect --step 0.2 --resume " + folder + "/state_000002.ply").status, 2);
+}
+
+TEST(AdvectCommand, ErrorControlWritesAboutThirtyStatesAndResumes) {
+  const Workspace workspace;
+  const std::string straight = workspace.path("straight");
+  const std::string resumed = workspace.path("resumed");
+  const std::string options =
+      "advect --sphere 50 --field 'expr:-y*exp(3*t);x;0' --step 0.001 --tolerance 1e-8 -o ";
+  ASSERT_EQ(run_program(options + straight).status, 0);
+  const Json files = Json::parse(contents(straight + "/states.ply.series"))["files"];
+  EXPECT_GT(files.size(), 15U);
+  EXPECT_LE(files.size(), 31U);
+  std::filesystem::copy(straight, resumed);
+  const std::string middle = files[files.size() / 2]["name"];
+  const Outcome outcome = run_program("advect --resume " + resumed + "/" + middle);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* file : {"/states.ply.series", "/log.json"})
+    EXPECT_EQ(contents(straight + file), contents(resumed + file)) << file;
+}
+
+TEST(AdvectCommand, RigidAndShearMotionTellTheirErrors) {
+  const Workspace workspace;
+  const std::string mesh = workspace.path("part.off");
+  ASSERT_EQ(run_program("generate torus --triangles 600 -o " + mesh).status, 0);
+  for (const char* field : {"rigid:0.3,0.2,3@0.1,0,0+1,0,0.5", "shear:2"}) {
+    for (const char* preset : {"none", "balanced"}) {
+      const std::string folder = workspace.path(std::string(field).substr(0, 5) + preset);
+      const Outcome outcome = run_program("advect " + mesh + " --step 0.05 --until 0.5 --preset " + preset +
+                                          " --field " + field + " -o " + folder);
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      const Json log = Json::parse(contents(folder + "/log.json"))["steps"];
+      for (const Json& entry : log) {
+        ASSERT_TRUE(entry.contains("error")) << field << " " << preset;
+        EXPECT_LT(entry["error"]["max"].get<double>(), preset == std::string("none") ? 1e-4 : 0.05);
+      }
+    }
+  }
 }
 
 TEST(AdvectCommand, DoesNotWriteOverARun) {
