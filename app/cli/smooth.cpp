@@ -24,13 +24,14 @@ namespace {
 constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
                                 kLimitFold,   kLimitEnergy, kLimitSurface, kLimitConverged};
 
-Json outcome_to_json(const SmoothOutcome& outcome) {
+/// `broken_by`: the predicate that ended the run, if one did.
+Json outcome_to_json(const SmoothOutcome& outcome, const std::string& broken_by) {
   Json object;
   object["before"] = to_json(outcome.before);
   object["after"] = to_json(outcome.after);
   object["iterations"] = outcome.run.iterations;
   object["stopped"] = name_of(outcome.run.stopped);
-  object["stopped_because"] = to_string(outcome.run.stopped);
+  object["stopped_because"] = to_string(outcome.run.stopped, broken_by);
   object["attempts"] = outcome.attempts;
   object["seconds"] = outcome.seconds;
   object["energy_before"] = outcome.run.before.energy;
@@ -55,6 +56,7 @@ Json outcome_to_json(const SmoothOutcome& outcome) {
     object["polish"] = {{"iterations", outcome.polish->iterations},
                         {"energy_before", outcome.run.after.energy},
                         {"stopped", name_of(outcome.polish->stopped)},
+                        {"stopped_because", to_string(outcome.polish->stopped, broken_by)},
                         {"seconds", outcome.polish->seconds}};
   }
   object["notes"] = outcome.notes;
@@ -144,7 +146,8 @@ class SmoothCommand : public Command {
     if (refreshed > 0)
       console.message(input_ + ": " + std::to_string(refreshed) + " stored normals were made to fit again");
     for (const std::string& note : outcome.notes) console.message(input_ + ": " + note);
-    if (!report_.empty()) write_file_atomically(report_, json_text(outcome_to_json(outcome)));
+    if (!report_.empty())
+      write_file_atomically(report_, json_text(outcome_to_json(outcome, watch_.broken_by())));
     if (const auto fault = fault_of(outcome)) {
       console.error(output_ + " is not written: " + *fault);
       return kCheckFailed;
@@ -158,11 +161,11 @@ class SmoothCommand : public Command {
                     (outcome.deviation.has_volume
                          ? ", volume change " + number_text(100 * outcome.deviation.volume_change) + " %"
                          : ""));
-    const std::string& predicate = watch_.broken_by();
-    console.message("stopped after " + std::to_string(outcome.run.iterations) + " iterations: " +
-                    (predicate.empty() ? std::string(to_string(outcome.run.stopped)) : predicate));
+    console.message("stopped after " + std::to_string(outcome.run.iterations) +
+                    " iterations: " + to_string(outcome.run.stopped, watch_.broken_by()));
     if (outcome.polish)
-      console.message("polished in " + std::to_string(outcome.polish->iterations) + " more");
+      console.message("polished in " + std::to_string(outcome.polish->iterations) +
+                      " more: " + to_string(outcome.polish->stopped, watch_.broken_by()));
     return kDone;
   }
 
@@ -216,11 +219,12 @@ class SmoothCommand : public Command {
           recorder.begin_part(part, positions);
         });
     watch_.finish(console, recorder.trace());
+    const bool broken = !watch_.broken_by().empty();
+    if (broken) (outcome.polish ? *outcome.polish : outcome.run).stopped = StopReason::breakpoint;
     if (!trace_.empty()) {
-      const bool in_polish = outcome.polish && outcome.polish->stopped == StopReason::cancelled;
-      const StopReason stopped = in_polish ? StopReason::cancelled : outcome.run.stopped;
+      const StopReason stopped = broken ? StopReason::breakpoint : outcome.run.stopped;
       recorder.trace().stopped = name_of(stopped);
-      recorder.trace().stopped_because = to_string(stopped);
+      recorder.trace().stopped_because = to_string(stopped, watch_.broken_by());
       write_trace(trace_, recorder.trace());
     }
     return outcome;

@@ -132,9 +132,10 @@ void run_and_report(const JobContext& context, const RunRequest& request) {
           {.iterations = request.iterations,
            .tolerance = request.kind == PartKind::polish ? kPolishTolerance : request.settings.tolerance},
           std::ref(reporter));
+  const StopReason stopped = reporter.broken_by().empty() ? result.stopped : StopReason::breakpoint;
+  request.recording->trace().stopped = name_of(stopped);
+  request.recording->trace().stopped_because = to_string(stopped, reporter.broken_by());
   reporter.finish(positions);
-  request.recording->trace().stopped = name_of(result.stopped);
-  request.recording->trace().stopped_because = to_string(result.stopped);
   RunEnded ended{result, reporter.broken_by()};
   if (result.stopped == StopReason::fixed) {
     ended.held = StepSummary{.iteration = request.start->iteration,

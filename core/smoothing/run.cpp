@@ -60,8 +60,14 @@ std::string_view to_string(StopReason reason) {
       return "no vertex may move";
     case StopReason::cancelled:
       return "cancelled";
+    case StopReason::breakpoint:
+      return "a breakpoint held";
   }
   return "unknown";
+}
+
+std::string to_string(StopReason reason, const std::string& condition) {
+  return reason == StopReason::breakpoint ? "breakpoint: " + condition : std::string(to_string(reason));
 }
 
 std::string_view name_of(StopReason reason) {
@@ -80,6 +86,8 @@ std::string_view name_of(StopReason reason) {
       return "fixed";
     case StopReason::cancelled:
       return "cancelled";
+    case StopReason::breakpoint:
+      return "breakpoint";
   }
   return "unknown";
 }

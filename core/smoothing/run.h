@@ -88,9 +88,12 @@ enum class StopReason : std::uint8_t {
   stalled,     ///< no step along the direction lowers the energy
   fixed,       ///< no vertex may move
   cancelled,   ///< the caller said stop
+  breakpoint,  ///< the caller said stop where a breakpoint held
 };
 /// One sentence for people.
 std::string_view to_string(StopReason reason);
+/// The same, and of a breakpoint what held there.
+std::string to_string(StopReason reason, const std::string& condition);
 /// One word for programs: "iterations", "gradient", ...
 std::string_view name_of(StopReason reason);
 

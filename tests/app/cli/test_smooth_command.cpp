@@ -250,6 +250,18 @@ TEST(SmoothCommand, StopsAndTellsWherePredicatesHold) {
   EXPECT_EQ(stopped.status, 0);
   EXPECT_NE(stopped.err.find("iteration 2: "), std::string::npos) << stopped.err;
   EXPECT_NE(stopped.err.find("stopped because iteration == 3"), std::string::npos) << stopped.err;
+  const std::string trace = workspace.path("run.trace"), report = workspace.path("r.json");
+  for (const char* words : {"", " --iterations 2 --polish worst"}) {
+    const Outcome recorded = run_program(smooth + " --break 'iteration == 3'" + words + " --trace " + trace +
+                                         " --report " + report);
+    EXPECT_EQ(recorded.status, 0) << recorded.err;
+    const Json object = Json::parse(contents(report));
+    const Json& ended = object.contains("polish") ? object["polish"] : object;
+    EXPECT_EQ(ended["stopped"], "breakpoint") << words;
+    EXPECT_EQ(ended["stopped_because"], "breakpoint: iteration == 3") << words;
+    const Outcome shown = run_program("trace show " + trace);
+    EXPECT_NE(shown.out.find("breakpoint: iteration == 3"), std::string::npos) << shown.out;
+  }
   const Outcome ended = run_program(smooth + " --iterations 4 --tolerance 0 --log stop");
   EXPECT_NE(ended.err.find("iteration 4: "), std::string::npos) << ended.err;
   const Outcome mistaken = run_program(smooth + " --break 'min_angle < '");
