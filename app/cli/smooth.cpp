@@ -178,6 +178,10 @@ class SmoothCommand : public Command {
 
   /// Why the result of an unguarded run may not be written; a guarded one has no fault.
   [[nodiscard]] std::optional<std::string> fault_of(const SmoothOutcome& outcome) const {
+    if (outcome.ran_away) {
+      return "without a guard vertex " + std::to_string(*outcome.ran_away) +
+             " ran away, by more than a million diagonals of the mesh";
+    }
     if (!outcome.turned_over.empty()) {
       return "without a guard " + std::to_string(outcome.turned_over.size()) +
              " triangles were turned over, the first " + std::to_string(outcome.turned_over.front());

@@ -62,6 +62,8 @@ std::string_view to_string(StopReason reason) {
       return "cancelled";
     case StopReason::breakpoint:
       return "a breakpoint held";
+    case StopReason::diverged:
+      return "the vertices ran away";
   }
   return "unknown";
 }
@@ -88,6 +90,8 @@ std::string_view name_of(StopReason reason) {
       return "cancelled";
     case StopReason::breakpoint:
       return "breakpoint";
+    case StopReason::diverged:
+      return "diverged";
   }
   return "unknown";
 }

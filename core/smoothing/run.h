@@ -89,6 +89,7 @@ enum class StopReason : std::uint8_t {
   fixed,       ///< no vertex may move
   cancelled,   ///< the caller said stop
   breakpoint,  ///< the caller said stop where a breakpoint held
+  diverged,    ///< without a guard the vertices ran away
 };
 /// One sentence for people.
 std::string_view to_string(StopReason reason);

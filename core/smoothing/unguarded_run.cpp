@@ -7,6 +7,18 @@
 #include "quality/inverted.h"
 
 namespace isorelax {
+namespace {
+
+/// Diagonals of the input that no smoothing takes a vertex: beyond, coordinates soon overflow.
+constexpr double kAway = 1e6;
+
+std::optional<Index> vertex_beyond(double distance, std::span<const Vec3> from, std::span<const Vec3> to) {
+  for (Index v = 0; v < from.size(); ++v)
+    if (!((to[v] - from[v]).stableNorm() <= distance)) return v;
+  return std::nullopt;
+}
+
+}  // namespace
 
 UnguardedResult run_unguarded(std::span<Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& problem_options, const SmootherFactory& make_smoother,
@@ -17,12 +29,19 @@ UnguardedResult run_unguarded(std::span<Vec3> positions, std::span<const Triangl
   result.deviation_limit = INFINITY;
   result.notes = problem.notes;
   result.limits = count_limits(problem.fixed_limits);
+  const double away = kAway * bounding_diagonal(original);
   result.run =
       run_with_continuation(problem, make_smoother, positions, run_options,
                             [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> moved) {
                               result.limits = count_limits(record.limits);
-                              return !observer || observer(iteration, record, moved);
+                              result.ran_away = vertex_beyond(away, original, moved);
+                              return !result.ran_away && (!observer || observer(iteration, record, moved));
                             });
+  if (result.ran_away) {
+    result.run.stopped = StopReason::diverged;
+    result.deviation.max = result.deviation.rms = INFINITY;
+    return result;
+  }
   result.deviation = measure_deviation(original, positions, triangles, problem.topology, problem.threads);
   const auto inverted = [&](std::span<const Vec3> x) {
     return inverted_triangles(x, triangles, problem.topology, problem.threads);

@@ -8,6 +8,9 @@ namespace isorelax {
 struct UnguardedResult : BoundedResult {
   /// Triangles that lie upside down now and did not before, ascending.
   std::vector<Index> turned_over;
+  /// A vertex that ran away, which ended the run: more than a million diagonals of the input from where it
+  /// was, or nowhere at all. The deviation is infinite then, and turned_over is not looked for.
+  std::optional<Index> ran_away;
 };
 
 /// Smooths a mesh in place, once, and takes what comes of it: for methods as published, which know no limit.

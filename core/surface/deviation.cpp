@@ -44,6 +44,13 @@ bool has_small_holes(std::span<const Vec3> positions, std::span<const Triangle> 
   return sum.norm() < kLargestHoles * area;
 }
 
+/// Whether squares of distances stay in range.
+bool can_be_measured(std::span<const Vec3> positions) {
+  constexpr double kLargestSquare = 1e300;
+  return std::all_of(positions.begin(), positions.end(),
+                     [](const Vec3& x) { return x.squaredNorm() <= kLargestSquare; });
+}
+
 double largest_normal_change(std::span<const Vec3> before, std::span<const Vec3> after,
                              std::span<const Triangle> triangles, unsigned threads) {
   std::vector<double> largest(block_count(triangles.size()), 0);
@@ -109,6 +116,11 @@ DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original
   DeviationByTriangle all{{}, std::vector<double>(triangles.size(), 0)};
   Deviation& result = all.whole;
   const double diagonal = bounding_diagonal(original);
+  if (!can_be_measured(original) || !can_be_measured(changed)) {
+    result.max = result.rms = result.max_to_original = result.max_to_new = INFINITY;
+    std::fill(all.largest.begin(), all.largest.end(), INFINITY);
+    return all;
+  }
   if (triangles.empty() || !(diagonal > 0)) return all;
   const IndexedSurface then(original, triangles, topology);
   const IndexedSurface now(changed, triangles, topology);

@@ -39,6 +39,8 @@ struct Deviation {
 /// mean of two quadrature rules that are both exact for quadratics: (vertices 1/20, midpoints 2/15, centroid
 /// 9/20) and the three inner points. The largest distance is found to about a thousandth: measure_both_ways.
 ///
+/// Infinite where a position is not finite, or so large that squares of distances are not.
+///
 /// `topology` is that of `triangles`; all indices below both sizes. The same for any number of threads.
 [[nodiscard]] Deviation measure_deviation(std::span<const Vec3> original, std::span<const Vec3> changed,
                                           std::span<const Triangle> triangles, const Topology& topology,

@@ -55,6 +55,22 @@ TEST(SmoothCommand, WritesNothingWhenAnUnguardedMethodTurnedTrianglesOver) {
   EXPECT_EQ(nlohmann::json::parse(quality.out)["inverted"], 0);
 }
 
+TEST(SmoothCommand, WritesNothingWhenVerticesRanAway) {
+  const Workspace workspace;
+  const std::string square = workspace.path("square.off");
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + square).status, 0);
+  const std::string out = workspace.path("o.off");
+  const Outcome outcome =
+      run_program("smooth " + square + " -o " + out +
+                  " --method laplacian --relaxation 2 --guard off --report " + workspace.path("r.json"));
+  EXPECT_EQ(outcome.status, 1);
+  expect_one_error_line(outcome);
+  EXPECT_NE(outcome.err.find("without a guard vertex "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(" ran away"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(Json::parse(contents(workspace.path("r.json")))["stopped"], "diverged");
+}
+
 TEST(SmoothCommand, RefusesOptionsThatAMethodDoesNotHave) {
   const Workspace workspace;
   const std::string smooth =

@@ -159,6 +159,15 @@ TEST(FacesInward, SaysNothingOfSheetsAndOfWhatDisagreesWithItself) {
   EXPECT_FALSE(inward(turned(dome)));
 }
 
+TEST(Deviation, OfWhatRanAwayIsInfinite) {
+  const TriangleMesh mesh = with_vertices(ShapeKind::sphere, 100);
+  for (const double far : {1e200, static_cast<double>(INFINITY), std::nan("")}) {
+    std::vector<Vec3> gone = mesh.positions;
+    for (std::size_t v = 0; v < gone.size(); v += 3) gone[v].y() = far;
+    EXPECT_EQ(deviation(mesh, gone).max, INFINITY) << far;
+  }
+}
+
 TEST(Deviation, OfAnEmptyMeshIsNothing) {
   const Deviation d = deviation(TriangleMesh(), {});
   EXPECT_EQ(d.max, 0);
