@@ -138,6 +138,7 @@ class SmoothCommand : public Command {
       throw UsageError(output_ + ": the extension names no format that is written: " + format_names());
     MeshFile file = read_input_file(console, input_);
     TriangleMesh& mesh = file.mesh;
+    watch_.check(mesh);
     check_files();
     frames_.start(mesh.positions);
     const std::vector<Vec3> before = mesh.positions;

@@ -36,6 +36,16 @@ void read(const char* option, const std::vector<std::string>& typed, std::vector
   }
 }
 
+void check_ids(const char* option, const std::vector<Predicate>& predicates, const TriangleMesh& mesh) {
+  for (const Predicate& predicate : predicates) {
+    try {
+      predicate.check(mesh.positions.size(), mesh.triangles.size());
+    } catch (const UsageError& error) {
+      throw UsageError(std::string(option) + " " + error.what());
+    }
+  }
+}
+
 }  // namespace
 
 void Watch::declare(CLI::App& app) {
@@ -49,6 +59,11 @@ void Watch::declare(CLI::App& app) {
 void Watch::check() {
   read("--break", typed_breaks_, breaks_);
   read("--log", typed_logs_, logs_);
+}
+
+void Watch::check(const TriangleMesh& mesh) const {
+  check_ids("--break", breaks_, mesh);
+  check_ids("--log", logs_, mesh);
 }
 
 bool Watch::look(Console& console, const Trace& trace, const StepRecord& record,

@@ -19,6 +19,8 @@ class Watch {
   void declare(CLI::App& app);
   /// Throws UsageError for a predicate with a mistake, at its column.
   void check();
+  /// Throws UsageError for a predicate that names a vertex or triangle that this mesh does not have.
+  void check(const TriangleMesh& mesh) const;
   [[nodiscard]] bool wanted() const { return !breaks_.empty() || !logs_.empty(); }
 
   /// Looks at the iteration that `trace` has just taken up. Returns whether the run goes on.

@@ -247,6 +247,8 @@ class Player {
     std::string text;
     for (const std::string& word : words.subspan(1)) text += (text.empty() ? "" : " ") + word;
     const Predicate predicate(text);
+    const TriangleMesh& mesh = editor_.session().document->mesh();
+    predicate.check(mesh.positions.size(), mesh.triangles.size());
     if (const std::string fault = fault_of(predicate); !fault.empty())
       result_.failures.push_back(options_.file.string() + ": line " + std::to_string(number_) + ": " + fault);
   }

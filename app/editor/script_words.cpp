@@ -76,6 +76,10 @@ model::SetBreakpoints with_breakpoint(Words words, const model::Session& session
   const model::Breakpoint& made = command.breakpoints.back();
   if (!made.predicate)
     throw UsageError(text + ": column " + std::to_string(made.mistake_column) + ": " + made.mistake);
+  if (session.document) {
+    const TriangleMesh& mesh = session.document->mesh();
+    made.predicate->check(mesh.positions.size(), mesh.triangles.size());
+  }
   return command;
 }
 

@@ -29,7 +29,8 @@ double divide(double a, double b) {
 /// Recursive descent; each rule returns what it read as a function of the moment.
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  Parser(std::string_view text, std::vector<Predicate::Element>& elements)
+      : text_(text), elements_(elements) {}
 
   Value parse() {
     Value value = either();
@@ -148,31 +149,33 @@ class Parser {
     const std::size_t start = at_;
     const std::string_view word = name();
     if (word.empty()) fail("expected a number or a name");
-    if (word == "vertex") return element(vertex_fields(), [](const Moment& m) { return m.positions.size(); });
-    if (word == "triangle")
-      return element(triangle_fields(), [](const Moment& m) { return m.triangles.size(); });
+    if (word == "vertex") return element(word, vertex_fields());
+    if (word == "triangle") return element(word, triangle_fields());
     for (const PredicateName& known : predicate_names())
       if (known.name == word) return known.value;
     at_ = start;
     fail("unknown name " + std::string(word));
   }
 
-  template <typename Count>
-  Value element(std::span<const PredicateField> fields, Count count) {
+  Value element(std::string_view kind, std::span<const PredicateField> fields) {
     expect("(");
     skip_space();
+    const std::size_t column = at_ + 1;
     Index id = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), id);
     if (error != std::errc()) fail("expected an id");
     at_ = static_cast<std::size_t>(end - text_.data());
+    const bool is_vertex = kind == "vertex";
+    elements_.push_back({is_vertex, id, column});
     expect(")");
     expect(".");
     const std::size_t start = at_;
     const std::string_view word = name();
     for (const PredicateField& field : fields) {
       if (field.name != word) continue;
-      return [id, count, value = field.value](const Moment& m) {
-        return id < count(m) ? value(m, id) : std::numeric_limits<double>::quiet_NaN();
+      return [id, is_vertex, value = field.value](const Moment& m) {
+        const std::size_t count = is_vertex ? m.positions.size() : m.triangles.size();
+        return id < count ? value(m, id) : std::numeric_limits<double>::quiet_NaN();
       };
     }
     at_ = start;
@@ -200,6 +203,7 @@ class Parser {
 
   static constexpr int kDeepest = 200;
   std::string_view text_;
+  std::vector<Predicate::Element>& elements_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
@@ -217,9 +221,19 @@ void list(std::string& text, const std::string& before, std::span<const Entry> e
 
 Predicate::Predicate(std::string text) : text_(std::move(text)) {
   try {
-    value_ = Parser(text_).parse();
+    value_ = Parser(text_, elements_).parse();
   } catch (const Mistake& mistake) {
     throw PredicateError(text_, mistake.column, mistake.reason);
+  }
+}
+
+void Predicate::check(std::size_t vertices, std::size_t triangles) const {
+  for (const Element& element : elements_) {
+    const std::size_t count = element.is_vertex ? vertices : triangles;
+    if (element.id < count) continue;
+    throw PredicateError(text_, element.column,
+                         "the mesh has " + std::to_string(count) +
+                             (element.is_vertex ? " vertices" : " triangles") + ", counted from 0");
   }
 }
 

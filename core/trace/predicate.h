@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesh/error.h"
 #include "trace/trace.h"
@@ -47,9 +48,11 @@ struct Moment {
 /// + - ; * / ; - ! ; parentheses. Everything is a number; true is 1, and what is not 0 holds.
 class Predicate {
  public:
-  /// Throws PredicateError: the text, the column and what was expected there. Ids are looked at when
-  /// evaluating.
+  /// Throws PredicateError: the text, the column and what was expected there. Ids are looked at by `check`.
   explicit Predicate(std::string text);
+
+  /// Throws PredicateError at the first vertex or triangle that a mesh of so many does not have.
+  void check(std::size_t vertices, std::size_t triangles) const;
 
   /// Whether it holds. A vertex or triangle that does not exist has no value: comparisons with it are false.
   [[nodiscard]] bool holds(const Moment& moment) const;
@@ -59,9 +62,16 @@ class Predicate {
   [[nodiscard]] static std::string reference();
 
   using Value = std::function<double(const Moment&)>;
+  /// A vertex or triangle that the text names.
+  struct Element {
+    bool is_vertex;
+    Index id;
+    std::size_t column;  ///< of the id, from 1
+  };
 
  private:
   std::string text_;
+  std::vector<Element> elements_;
   Value value_;
 };
 

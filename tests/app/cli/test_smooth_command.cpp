@@ -283,6 +283,8 @@ TEST(SmoothCommand, StopsAndTellsWherePredicatesHold) {
   const Outcome mistaken = run_program(smooth + " --break 'min_angle < '");
   EXPECT_EQ(mistaken.status, 2);
   EXPECT_NE(mistaken.err.find("column 13"), std::string::npos) << mistaken.err;
+  expect_refused(smooth + " --break 'vertex(99999).alpha < 1'");
+  expect_refused(smooth + " --log 'triangle(99999).area < 1'");
 }
 
 }  // namespace

@@ -74,6 +74,10 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   EXPECT_NE(complaint("\nopen missing.off\n").find("line 2"), std::string::npos);
   EXPECT_NE(complaint("click nowhere\n").find("nowhere"), std::string::npos);
   EXPECT_NE(complaint("break min_angle <\n").find("column"), std::string::npos);
+  for (const char* line : {"expect vertex(99999).x > 0", "break vertex(99999).x > 0"})
+    EXPECT_NE(
+        complaint("open square.off\n" + std::string(line)).find("line 2: vertex(99999).x > 0: column 8"),
+        std::string::npos);
   EXPECT_NE(complaint("open 'square.off\n").find("quote"), std::string::npos);
   for (const char* wrong : {"run 2 3", "frame 1", "no-breaks 1", "next-stage 2", "tab runs 1",
                             "camera iso top", "show split original 1", "screenshot a.png b.png"}) {

@@ -61,6 +61,21 @@ TEST_F(PredicateTest, NothingHoldsOfWhatIsNotThere) {
   EXPECT_FALSE(holds("vertex(812).x"));
 }
 
+TEST_F(PredicateTest, ShowsWhatAMeshDoesNotHaveAtItsPlace) {
+  const Predicate predicate("vertex(2).x > 0 && triangle( 4 ).area < 1");
+  EXPECT_NO_THROW(predicate.check(3, 5));
+  const auto column = [&](std::size_t vertices, std::size_t faces) {
+    try {
+      predicate.check(vertices, faces);
+    } catch (const PredicateError& error) {
+      return error.column();
+    }
+    return std::size_t{0};
+  };
+  EXPECT_EQ(column(2, 5), 8U);
+  EXPECT_EQ(column(3, 4), 30U);
+}
+
 TEST_F(PredicateTest, BindsAsInC) {
   EXPECT_TRUE(holds("1 + 2 * 3 == 7"));
   EXPECT_TRUE(holds("(1 + 2) * 3 == 9"));
