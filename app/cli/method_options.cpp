@@ -39,7 +39,8 @@ Method near_isometry(const CLI::App& app, const MethodSpec& spec, RecordDetail d
                                       {"newton", Solver::newton},
                                       {"lbfgs", Solver::lbfgs}});
   if (spec.relaxation && solver != Solver::jacobi)
-    throw UsageError("--relaxation has no meaning with --solver " + spec.solver);
+    throw UsageError("--relaxation has no meaning with --solver " +
+                     (spec.solver.empty() ? "auto" : spec.solver));
   JacobiOptions jacobi;
   jacobi.detail = detail;
   if (spec.relaxation) jacobi.relaxation = *spec.relaxation;

@@ -34,6 +34,8 @@ TEST(SmoothCommand, RefusesOptionsWithoutEffect) {
        {" --every 2", " --view iso", " --polish-mean-loss 1", " --polish mean --polish-mean-loss 1",
         " --polish worst --polish-worst-share 0.2", " --relaxation 0.5", " --solver newton --relaxation 0.5"})
     expect_refused(smooth + options);
+  const Outcome by_default = run_program(smooth + " --relaxation 0.5");
+  EXPECT_NE(by_default.err.find("--solver auto"), std::string::npos) << by_default.err;
   EXPECT_EQ(run_program(smooth + " --solver jacobi --relaxation 0.5").status, 0);
   EXPECT_EQ(run_program(smooth + " --polish both --polish-mean-loss 1 --polish-worst-share 0.2").status, 0);
 }
