@@ -94,8 +94,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->type_name("RULE");
   app.add_option("--pin", spec.pins,
                  "Vertices that must not move: boundary, feature, box:X0,Y0,Z0:X1,Y1,Z1 (two corners), "
-                 "vertices:ID,ID,..., or a FILE of vertex numbers from 0; may be repeated")
+                 "vertices:ID,ID,..., or a FILE of vertex numbers from 0 (repeatable)")
       ->type_name("WHICH")
+      ->expected(1)
+      ->take_all()
       ->allow_extra_args(false);
   app.add_option("--marks", spec.marks,
                  "Vertices that the file marks by groups of its elements (MSH): points, lines inside the "

@@ -77,7 +77,7 @@ void SmoothRun::declare(CLI::App& app) {
       ->type_name("D")
       ->check([](const std::string& text) {
         const std::string fault = limit_word(text) ? std::string() : kDistance(text);
-        return fault.empty() ? fault : fault + ", nor nearest or widest";
+        return fault.empty() ? fault : fault + ", nor inf, nearest or widest";
       });
   for (const CLI::Option* option : app.get_options()) {
     if (std::ranges::find(others, option) == others.end()) options_.push_back(option);

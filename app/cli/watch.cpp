@@ -51,9 +51,16 @@ void check_ids(const char* option, const std::vector<Predicate>& predicates, con
 void Watch::declare(CLI::App& app) {
   app.add_option("--break", typed_breaks_,
                  "End the run after the first iteration where this holds, such as 'min_angle < 5'; what is "
-                 "there then is written")
-      ->type_name("PREDICATE");
-  app.add_option("--log", typed_logs_, "Tell of every iteration where this holds")->type_name("PREDICATE");
+                 "there then is written (repeatable)")
+      ->type_name("PREDICATE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--log", typed_logs_, "Tell of every iteration where this holds (repeatable)")
+      ->type_name("PREDICATE")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void Watch::check() {

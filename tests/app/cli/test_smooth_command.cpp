@@ -22,6 +22,8 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
     expect_one_error_line(outcome);
     EXPECT_LT(outcome.err.size(), 160U) << outcome.err;
   }
+  const Outcome word = run_program(smooth + " --max-deviation nan");
+  EXPECT_NE(word.err.find("inf, nearest or widest"), std::string::npos) << word.err;
   for (const char* limit : {"inf", "nearest", "widest"})
     EXPECT_EQ(run_program(smooth + " --max-deviation " + limit).status, 0) << limit;
 }
@@ -143,6 +145,9 @@ TEST(SmoothCommand, PinsByPredicate) {
   EXPECT_NE(contents(workspace.path("o.off")), contents(square));
   for (const char* wrong : {"box:", "box:1,2,3", "box:1,2:3,4", "box:a,0,0:1,1,1", "box:0,0,nan:1,1,1"})
     expect_refused(smooth + wrong);
+  // One word each, wherever the mesh stands.
+  EXPECT_EQ(run_program("smooth --pin feature " + square + " -o " + workspace.path("o.off")).status, 0);
+  EXPECT_NE(run_program("smooth --help").out.find("--pin WHICH  "), std::string::npos);
   const Outcome missing = run_program(smooth + workspace.path("none.txt"));
   EXPECT_EQ(missing.status, 3);
   expect_one_error_line(missing);
