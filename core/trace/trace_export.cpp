@@ -1,6 +1,9 @@
 #include "trace/trace_export.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <type_traits>
 
 #include "io/atomic_file.h"
@@ -100,6 +103,15 @@ class VtkPolyData {
   std::string text_;
 };
 
+/// Whether the start has a number of this name: no step led to it.
+bool is_of_a_mesh(std::string_view name, const Trace& trace) {
+  constexpr std::array<std::string_view, 4> kQuality{"min_angle_deg", "max_angle_deg", "mean_min_angle_deg",
+                                                     "inverted"};
+  constexpr std::array<std::string_view, 4> kEnergy{"energy", "shape", "area", "worst_energy"};
+  return std::ranges::find(kQuality, name) != kQuality.end() ||
+         (!trace.iterations.empty() && std::ranges::find(kEnergy, name) != kEnergy.end());
+}
+
 }  // namespace
 
 std::string trace_csv(const Trace& trace) {
@@ -112,9 +124,9 @@ std::string trace_csv(const Trace& trace) {
   if (!trace.iterations.empty()) start.after = trace.iterations.front().before;
   for (std::size_t k = 0; k <= trace.iterations.size(); ++k) {
     text += std::to_string(k);
-    visit_numbers(k == 0 ? start : trace.iterations[k - 1], [&](std::string_view, const auto& value) {
+    visit_numbers(k == 0 ? start : trace.iterations[k - 1], [&](std::string_view name, const auto& value) {
       text += ',';
-      append(text, value);
+      if (k > 0 || is_of_a_mesh(name, trace)) append(text, value);
     });
     text += '\n';
   }

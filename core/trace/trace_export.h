@@ -9,7 +9,8 @@
 namespace isorelax {
 
 /// One line per iteration under a line of names: iteration, then the numbers of visit_numbers(). Line 0 has
-/// the quality at the start. Numbers are the shortest that give the same bits.
+/// the quality and the energies at the start, and nothing where a step would be told of. Numbers are the
+/// shortest that give the same bits.
 [[nodiscard]] std::string trace_csv(const Trace& trace);
 
 /// The whole record but positions, as JSON: head, and a list of iterations with the numbers of

@@ -24,6 +24,8 @@ TEST(TraceExport, CsvHasALinePerIterationAndAsManyColumnsInEach) {
   for (const std::string& one : lines)
     EXPECT_EQ(std::ranges::count(one, ','), std::ranges::count(lines.front(), ',')) << one;
   EXPECT_EQ(lines.front().rfind("iteration,energy_before,", 0), 0U);
+  EXPECT_EQ(lines[1].rfind("0,,", 0), 0U) << "no step led to the start: " << lines[1];
+  EXPECT_EQ(lines[1].back(), ',') << lines[1];
   EXPECT_EQ(lines[6].rfind("5,", 0), 0U);
 }
 
