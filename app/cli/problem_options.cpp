@@ -54,7 +54,7 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->excludes(mu);
   app.add_option(
          "--exponent", spec.exponent,
-         "p >= 1: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
+         "p from 1 to 64: minimise the sum of E^p; larger p favours the worst triangles (default 2; "
          "1 where squares would lower the mean of the smallest angles, unless areas count more than angles)")
       ->type_name("P");
   auto* reference =

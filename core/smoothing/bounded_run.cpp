@@ -67,20 +67,20 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
     return !observer || observer(done + iteration, record, moved);
   };
   RunResult result;
-  for (double exponent = 2;; exponent *= 2) {
+  auto stages_left = static_cast<unsigned>(std::ceil(std::log2(problem.exponent)));
+  for (double exponent = 2;; exponent *= 2, --stages_left) {
+    const bool last = exponent >= problem.exponent;
+    RunOptions stage_options = options;
+    stage_options.iterations = last ? options.iterations - done : (options.iterations - done) / stages_left;
+    if (!last && stage_options.iterations == 0) continue;
     SmoothingProblem stage = problem;
     stage.exponent = std::min(exponent, problem.exponent);
-    const bool last = stage.exponent == problem.exponent;
-    RunOptions stage_options = options;
-    stage_options.iterations = options.iterations - done;
     if (!last) stage_options.tolerance = std::max(options.tolerance, kStageTolerance);
     if (on_stage) on_stage(done, stage.exponent);
     result = run(*make_smoother(stage), stage, positions, stage_options, observe);
     done += result.iterations;
     seconds += result.seconds;
-    if (last || done >= options.iterations || result.stopped == StopReason::cancelled ||
-        result.stopped == StopReason::fixed)
-      break;
+    if (last || result.stopped == StopReason::cancelled || result.stopped == StopReason::fixed) break;
   }
   result.iterations = done;
   result.seconds = seconds;

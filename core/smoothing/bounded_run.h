@@ -74,8 +74,9 @@ struct BoundedResult {
 
 /// Runs with the problem's exponent. One above 2 is reached in steps, 2, 4, 8, ..., each started where the
 /// one before ended: high powers alone are ruled by the worst triangle (method Sec. 6). All stages share
-/// options.iterations; the totals are those of the final exponent. `on_stage` is told the exponent of each
-/// stage and the steps before it.
+/// options.iterations: none has more than its part of those that are left, so that the last one is reached,
+/// and one whose part is none is left out. The totals are those of the final exponent. `on_stage` is told the
+/// exponent of each stage and the steps before it.
 RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherFactory& make_smoother,
                                 std::span<Vec3> positions, const RunOptions& options,
                                 const StepObserver& observer = {},

@@ -112,6 +112,21 @@ TEST(BoundedRun, TheLastStageDoesNotChangeTheExponent) {
   EXPECT_GE(measure_quality(mesh).min_angle_deg, measure_quality(smoothed).min_angle_deg);
 }
 
+TEST(BoundedRun, AHighExponentIsReachedInTheIterationsThereAre) {
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.triangles = 200});
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {.exponent = 64});
+  const auto smoother = [](const SmoothingProblem& stage) { return make_jacobi(stage); };
+  for (const unsigned iterations : {0U, 3U, 40U}) {
+    std::vector<Vec3> x = mesh.positions;
+    double reached = 0;
+    const RunResult result =
+        run_with_continuation(problem, smoother, x, {.iterations = iterations, .tolerance = 0}, {},
+                              [&](unsigned /*done*/, double exponent) { reached = exponent; });
+    EXPECT_EQ(reached, 64) << iterations;
+    EXPECT_EQ(result.iterations, iterations);
+  }
+}
+
 TEST(BoundedRun, OfWhatIsConvergedKeepsItsExponent) {
   const auto names_the_exponent = [](const std::string& note) {
     return note.find("exponent") != std::string::npos;
