@@ -318,6 +318,16 @@ void check(const ProblemOptions& options) {
   }
   if (options.exponent && (!(*options.exponent >= 1) || !(*options.exponent <= 64)))
     throw UsageError("the exponent must be from 1 to 64");
+  // What is made of the powers of the energies must not leave the range of double.
+  constexpr double kLargestWeight = 1e12, kLargestPower = 1e100;
+  const double limit =
+      std::min(kLargestWeight, std::pow(kLargestPower, 1 / options.exponent.value_or(kDefaultExponent)));
+  const double larger = std::max(w.shape, w.area);
+  if (larger > limit || larger < 1 / limit) {
+    throw UsageError(
+        "the larger weight must be from 1e-12 to 1e12, and nearer to 1 with an exponent over 8: only the "
+        "ratio of the weights matters");
+  }
 }
 
 }  // namespace

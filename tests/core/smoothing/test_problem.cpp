@@ -100,6 +100,10 @@ TEST(Problem, PinnedVertexStays) {
 TEST(Problem, RefusesWhatMakesNoSense) {
   EXPECT_THROW(frozen(grid(), {.weights = {0, 0}}), UsageError);
   EXPECT_THROW(frozen(grid(), {.weights = {-1, 2}}), UsageError);
+  for (const double far : {1e-200, 1e-13, 1e13, 1e100})
+    EXPECT_THROW(frozen(grid(), {.weights = {far, far}}), UsageError);
+  EXPECT_NO_THROW(frozen(grid(), {.weights = {1e-12, 0}}));
+  EXPECT_THROW(frozen(grid(), {.weights = {1e12, 0}, .exponent = 32}), UsageError);
   EXPECT_THROW(frozen(grid(), {.exponent = 0.5}), UsageError);
   EXPECT_THROW(frozen(grid(), {.reference = EdgeLengthReference{-1}}), UsageError);
   EXPECT_THROW(frozen(grid(), {.reference = MeshReference{{{0, 0, 0}}}}), MeshError);
