@@ -14,7 +14,7 @@ namespace {
 template <class Integer>
 bool fits_integer(double value) {
   return value >= static_cast<double>(std::numeric_limits<Integer>::min()) &&
-         value <= static_cast<double>(std::numeric_limits<Integer>::max()) && value == std::trunc(value) &&
+         value < std::ldexp(1.0, std::numeric_limits<Integer>::digits) && value == std::trunc(value) &&
          !(value == 0.0 && std::signbit(value));
 }
 
@@ -76,6 +76,10 @@ bool fits(double value, ScalarType type) {
               static_cast<double>(static_cast<float>(value)) == value);
     case ScalarType::float64:
       return true;
+    case ScalarType::int64:
+      return fits_integer<std::int64_t>(value);
+    case ScalarType::uint64:
+      return fits_integer<std::uint64_t>(value);
   }
   return false;
 }

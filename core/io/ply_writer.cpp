@@ -20,6 +20,12 @@ struct Column {
   ScalarType type;
 };
 
+/// PLY has no integers of 64 bits: those that a mesh holds are doubles as well.
+ScalarType kept_in_ply(ScalarType type) {
+  const bool is_wide = type == ScalarType::int64 || type == ScalarType::uint64;
+  return is_wide ? ScalarType::float64 : type;
+}
+
 class PlyWriter {
  public:
   PlyWriter(const TriangleMesh& mesh, FileEncoding encoding)
@@ -95,10 +101,11 @@ void PlyWriter::describe_attribute(const Attribute& attribute, const std::string
   if (!free) {
     return;
   }
-  const ScalarType type = fitting_type(attribute.values, attribute.type);
-  if (type != attribute.type) {
+  const ScalarType wished = kept_in_ply(attribute.type);
+  const ScalarType type = fitting_type(attribute.values, wished);
+  if (type != wished) {
     messages_.push_back(element + " attribute " + in_quotes(attribute.name) +
-                        " written as double: " + ply_type_name(attribute.type) + " does not hold its values");
+                        " written as double: " + ply_type_name(wished) + " does not hold its values");
   }
   for (const std::string& name : own) {
     out_ += std::string("property ") + ply_type_name(type) + " " + name + "\n";
@@ -109,7 +116,7 @@ void PlyWriter::describe_attribute(const Attribute& attribute, const std::string
 }
 
 void PlyWriter::describe_vertices() {
-  const ScalarType wished = mesh_.attributes.position_type;
+  const ScalarType wished = kept_in_ply(mesh_.attributes.position_type);
   const bool fits_all = std::all_of(mesh_.positions.begin(), mesh_.positions.end(), [&](const Vec3& p) {
     return fits(p.x(), wished) && fits(p.y(), wished) && fits(p.z(), wished);
   });

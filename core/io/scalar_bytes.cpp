@@ -20,6 +20,8 @@ std::size_t size_of(ScalarType type) {
     case ScalarType::float32:
       return 4;
     case ScalarType::float64:
+    case ScalarType::int64:
+    case ScalarType::uint64:
       return 8;
   }
   return 8;
@@ -43,6 +45,10 @@ double load_scalar(const char* bytes, ScalarType type, std::endian order) {
       return static_cast<double>(load_bytes<float>(bytes, order));
     case ScalarType::float64:
       return load_bytes<double>(bytes, order);
+    case ScalarType::int64:
+      return static_cast<double>(load_bytes<std::int64_t>(bytes, order));
+    case ScalarType::uint64:
+      return static_cast<double>(load_bytes<std::uint64_t>(bytes, order));
   }
   return 0.0;
 }
@@ -65,10 +71,15 @@ void append_scalar(std::string& out, double value, ScalarType type, std::endian 
       return append_bytes(out, static_cast<float>(value), order);
     case ScalarType::float64:
       return append_bytes(out, value, order);
+    case ScalarType::int64:
+      return append_bytes(out, static_cast<std::int64_t>(value), order);
+    case ScalarType::uint64:
+      return append_bytes(out, static_cast<std::uint64_t>(value), order);
   }
 }
 
 void append_scalar_text(std::string& out, double value, ScalarType type) {
+  if (type == ScalarType::uint64) return append_integer(out, static_cast<std::uint64_t>(value));
   is_real(type) ? append_number(out, value) : append_whole(out, value);
 }
 

@@ -90,22 +90,23 @@ std::optional<VtkType> xml_vtk_type(std::string_view word) {
 }
 
 const char* legacy_vtk_name(ScalarType type) {
-  static constexpr std::array<const char*, 8> kNames{"char", "unsigned_char", "short", "unsigned_short",
-                                                     "int",  "unsigned_int",  "float", "double"};
+  static constexpr std::array<const char*, 10> kNames{
+      "char",         "unsigned_char", "short",  "unsigned_short", "int",
+      "unsigned_int", "float",         "double", "vtktypeint64",   "vtktypeuint64"};
   return kNames[static_cast<std::size_t>(type)];
 }
 
 const char* xml_vtk_name(ScalarType type) {
-  static constexpr std::array<const char*, 8> kNames{"Int8",  "UInt8",  "Int16",   "UInt16",
-                                                     "Int32", "UInt32", "Float32", "Float64"};
+  static constexpr std::array<const char*, 10> kNames{"Int8",   "UInt8",   "Int16",   "UInt16", "Int32",
+                                                      "UInt32", "Float32", "Float64", "Int64",  "UInt64"};
   return kNames[static_cast<std::size_t>(type)];
 }
 
 ScalarType kept_type(VtkType type) {
   static constexpr std::array<ScalarType, 11> kTypes{
-      ScalarType::uint8,   ScalarType::int8,    ScalarType::uint8,  ScalarType::int16,
-      ScalarType::uint16,  ScalarType::int32,   ScalarType::uint32, ScalarType::float64,
-      ScalarType::float64, ScalarType::float32, ScalarType::float64};
+      ScalarType::uint8,  ScalarType::int8,    ScalarType::uint8,  ScalarType::int16,
+      ScalarType::uint16, ScalarType::int32,   ScalarType::uint32, ScalarType::int64,
+      ScalarType::uint64, ScalarType::float32, ScalarType::float64};
   return kTypes[static_cast<std::size_t>(type)];
 }
 
@@ -115,15 +116,8 @@ std::uint64_t capped_product(std::uint64_t a, std::uint64_t b) {
 }
 
 std::uint64_t binary_size(VtkType type, std::uint64_t count) {
-  switch (type) {
-    case VtkType::bit:
-      return count / 8 + (count % 8 == 0 ? 0 : 1);
-    case VtkType::int64:
-    case VtkType::uint64:
-      return capped_product(count, 8);
-    default:
-      return capped_product(count, size_of(kept_type(type)));
-  }
+  if (type == VtkType::bit) return count / 8 + (count % 8 == 0 ? 0 : 1);
+  return capped_product(count, size_of(kept_type(type)));
 }
 
 void append_binary(VtkArray& array, const char* bytes, std::endian order) {

@@ -48,7 +48,7 @@ struct VtkArray {
 [[nodiscard]] const char* legacy_vtk_name(ScalarType type);
 [[nodiscard]] const char* xml_vtk_name(ScalarType type);
 
-/// The type under which an attribute keeps such numbers: bits as bytes, 64-bit integers as double.
+/// The type under which an attribute keeps such numbers: bits as bytes.
 [[nodiscard]] ScalarType kept_type(VtkType type);
 
 [[nodiscard]] constexpr bool is_whole(VtkType type) {

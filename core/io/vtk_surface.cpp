@@ -51,6 +51,7 @@ std::vector<Attribute> VtkData::finish(std::vector<std::string>& messages) {
     if (column.rounded > 0) {
       messages.push_back(counted(column.rounded, "whole number", "whole numbers") + " of the " + array +
                          " rounded to double precision");
+      column.attribute.type = ScalarType::float64;
     }
     whole.push_back(std::move(column.attribute));
   }

@@ -11,8 +11,20 @@ namespace isorelax {
 inline constexpr const char* kPhysicalGroup = "gmsh:physical";
 inline constexpr const char* kGeometricEntity = "gmsh:geometrical";
 
-/// Scalar type an attribute had in its file, so that it is written back as it was.
-enum class ScalarType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// Scalar type an attribute had in its file, so that it is written back as it was. Integers of 64 bits are
+/// known to VTK only.
+enum class ScalarType : std::uint8_t {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  float32,
+  float64,
+  int64,
+  uint64
+};
 
 /// Values attached to every vertex or every triangle: `width` numbers per element, element by element.
 /// Names with a meaning across formats, at the widths given: "normal" (3), "color" (3 or 4; uint8 0..255 or

@@ -36,9 +36,15 @@ TriangleMesh rich_mesh() {
       {"metadata", ScalarType::int8, 1, {-128, 127, 0, 1}}};
   mesh.attributes.points.vertices = {3, 0};
   mesh.attributes.lines.vertices = {0, 1, 1, 2, 2, 3};
-  mesh.attributes.points.values = {{"tag", ScalarType::int32, 1, {-1, -2}}};
-  mesh.attributes.lines.values = {{"tag", ScalarType::int32, 1, {-3, -4, -2147483648.0}}};
-  mesh.attributes.face = {{"tag", ScalarType::int32, 1, {5, 2147483647}}};
+  mesh.attributes.points.values = {{"tag", ScalarType::int32, 1, {-1, -2}},
+                                   {"id", ScalarType::int64, 1, {1, 2}},
+                                   {"hash", ScalarType::uint64, 1, {3, 4}}};
+  mesh.attributes.lines.values = {{"tag", ScalarType::int32, 1, {-3, -4, -2147483648.0}},
+                                  {"id", ScalarType::int64, 1, {5, 6, 7}},
+                                  {"hash", ScalarType::uint64, 1, {8, 9, 10}}};
+  mesh.attributes.face = {{"tag", ScalarType::int32, 1, {5, 2147483647}},
+                          {"id", ScalarType::int64, 1, {-9223372036854775808.0, 9007199254740992}},
+                          {"hash", ScalarType::uint64, 1, {0, 18446744073709549568.0}}};
   return mesh;
 }
 
@@ -80,6 +86,16 @@ TEST(VtkRoundTrip, EveryFormKeepsAttributesPointsLinesAndTheComment) {
     expect_same_attributes(mesh.attributes.face, back.face);
     EXPECT_TRUE(same_attributes(mesh.attributes, back));
   }
+}
+
+TEST(VtkRoundTrip, WholeNumbersOf64BitsAreDoublesInPly) {
+  TriangleMesh mesh = hard_numbers();
+  mesh.attributes.vertex = {{"id", ScalarType::int64, 1, {-9007199254740992.0, 1, 2, 3}}};
+  const EncodedMesh written = encode_ply(mesh, FileEncoding::binary_little_endian);
+  EXPECT_TRUE(written.messages.empty());
+  const MeshFile back = read_ply(written.bytes, "back");
+  EXPECT_EQ(back.mesh.attributes.vertex[0].type, ScalarType::float64);
+  EXPECT_EQ(back.mesh.attributes.vertex[0].values, mesh.attributes.vertex[0].values);
 }
 
 TEST(VtkRoundTrip, SinglePrecisionStaysWhereItLosesNothing) {
