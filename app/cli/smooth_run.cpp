@@ -59,8 +59,9 @@ void SmoothRun::declare(CLI::App& app) {
       ->type_name("WHAT");
   app.add_option(
          "--polish-mean-loss", polish_options_.largest_mean_loss,
-         "For the worst angles, the mean of the triangles' smallest falls by no more, degrees (default 1), "
-         "nor by more than 0.1 beyond what the smallest of all rises or the largest falls")
+         "For the worst angles, the mean of the smallest angles of the triangles that can change falls by no "
+         "more, degrees (default 1), nor by more than 0.1 beyond what the smallest of these rises or their "
+         "largest falls")
       ->type_name("DEG")
       ->check(number_between(0, 60));
   app.add_option("--polish-worst-share", polish_options_.worst_share,
