@@ -64,6 +64,7 @@ class TurnLimit {
   /// and for those over the folds of that one.
   template <typename Act>
   void for_turned_back(std::span<const Vec3> x, Index triangle, const Act& act) const {
+    if (!folds_of(x, triangle).any()) return;  // nearly all
     const auto around = [&](Index t) {
       if (!turns_back(t, folds_of(x, t))) return;
       act(t);
