@@ -105,11 +105,11 @@ FoldControl::FoldControl(const SmoothingProblem& problem)
     : problem_(problem),
       turns_(problem),
       surface_(problem),
+      has_turned_(turns_.applies() ? problem.triangle_count() : 0, 1),
       block_cuts_(block_count(problem.triangle_count())) {}
 
-/// Where all triangles are checked, a fresh fold is found from one of the two at it.
 void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_checked,
-                        std::vector<Cut>& cuts) const {
+                        std::vector<Cut>& cuts) {
   EdgeBatch x;
   EdgeBatch y;
   AreaBatch areas;
@@ -133,15 +133,28 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
                            !(angles.largest_cot.at[i] >= problem_.worst_angles.largest_cot);
     bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
     if (problem_.treated[t] == 0) continue;
+    if (may_turn) has_turned_[t] = turned ? 1 : 0;
     if (may_turn && !turned && cosines.at[i] < TurnLimit::kLittleTurned2) turned = faces_away(trial.to(), t);
     const auto cut = [&](Index triangle, double share) {
       for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, share});
     };
     if (too_sharp || turned) limit = std::min(limit, 0.5);
     if (limit < 1) cut(t, limit);
-    if (may_turn && !(all_are_checked && cosines.at[i] > turns_.folding_cosine(t)))
+    if (may_turn && may_have_folds(t, cosines.at[i], all_are_checked))
       turns_.for_turned_back(trial.to(), t, [&](Index triangle) { cut(triangle, 0.5); });
   }
+}
+
+/// Where all triangles are checked, a fresh fold is found from one of the two at it; else a neighbour that
+/// turns too far later in the same round finds what is between them.
+bool FoldControl::may_have_folds(Index triangle, double cosine, bool all_are_checked) const {
+  if (all_are_checked) return !(cosine > turns_.folding_cosine(triangle));
+  if (!(cosine > turns_.unfolded_cosine(triangle))) return true;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Corner across = problem_.topology.opposite(3 * triangle + k);
+    if (across != kNone && has_turned_[across / 3] != 0) return true;
+  }
+  return false;
 }
 
 bool FoldControl::faces_away(std::span<const Vec3> x, Index triangle) const {
@@ -149,7 +162,7 @@ bool FoldControl::faces_away(std::span<const Vec3> x, Index triangle) const {
   return turns_.faces_away(triangle, {x[a], x[b], x[c]});
 }
 
-std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) const {
+std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<const Index> triangles) {
   std::vector<Cut> cuts;
   for (std::size_t first = 0; first < triangles.size(); first += kLanes) {
     check(trial, BatchIds::of_list(triangles, first), false, cuts);

@@ -40,15 +40,18 @@ class FoldControl {
     Index triangle;
     double share;
   };
-  void check(const Trial& trial, const BatchIds& ids, bool all_are_checked, std::vector<Cut>& cuts) const;
+  void check(const Trial& trial, const BatchIds& ids, bool all_are_checked, std::vector<Cut>& cuts);
   [[nodiscard]] bool faces_away(std::span<const Vec3> x, Index triangle) const;
-  [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles) const;
+  [[nodiscard]] bool may_have_folds(Index triangle, double cosine, bool all_are_checked) const;
+  [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles);
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
   std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);
 
   const SmoothingProblem& problem_;
   TurnLimit turns_;
   SurfaceLimit surface_;
+  /// Triangles that had turned by more than they may when last checked, or are not checked.
+  std::vector<std::uint8_t> has_turned_;
   std::vector<std::vector<Cut>> block_cuts_;
 };
 

@@ -41,11 +41,14 @@ TurnLimit::TurnLimit(const SmoothingProblem& problem) : problem_(problem) {
     surface_ = problem.near->surface.get();
   needed_.resize(problem.triangle_count());
   folding_cosines_.resize(problem.triangle_count());
+  unfolded_cosines_.resize(problem.triangle_count());
   parallel_for_blocks(problem.triangle_count(), problem.threads, [&](std::size_t begin, std::size_t end) {
     for (Index t = static_cast<Index>(begin); t < end; ++t) {
       needed_[t] = folds_to_turn_back(t);
       const double cosine = std::cos(0.5 * room_of(t));
       folding_cosines_[t] = cosine * cosine;
+      const double room = room_beside_others(t);
+      unfolded_cosines_[t] = room > 0 ? std::cos(room) * std::cos(room) : 2;
     }
   });
 }
@@ -80,6 +83,21 @@ double TurnLimit::room_of(Index t) const {
       room = std::min(room, std::acos(std::min(kind.allowed, at_start)) - std::acos(at_start));
       break;
     }
+  }
+  return room;
+}
+
+/// By how much, in radians, triangle t may turn before it has a fold to a neighbour that turns as far as it
+/// may; up to a right angle.
+double TurnLimit::room_beside_others(Index t) const {
+  constexpr double kRoundingAngle = 0.01;
+  const double largest_turn = std::acos(kLeastCosine) + kRoundingAngle;
+  double room = std::numbers::pi / 2;
+  for (unsigned k = 0; k < 3; ++k) {
+    const Corner across = problem_.topology.opposite(3 * t + k);
+    if (across == kNone) continue;
+    room = std::min(room,
+                    std::acos(kKinds[0].allowed) - std::acos(cosine_at_start(t, across / 3)) - largest_turn);
   }
   return room;
 }

@@ -48,6 +48,10 @@ class TurnLimit {
   /// squared, with its sign.
   [[nodiscard]] double folding_cosine(Index triangle) const { return folding_cosines_[triangle]; }
 
+  /// Squared cosine of the turn up to which a triangle has no fold, fresh or not, to a neighbour that has
+  /// turned by no more than it may; 2 where it may have one all the same.
+  [[nodiscard]] double unfolded_cosine(Index triangle) const { return unfolded_cosines_[triangle]; }
+
   /// Squared cosine of the turn up to which no triangle is looked at closer: 20 degrees.
   static constexpr double kLittleTurned2 = 0.883;
   /// The same of the problem's triangle with these corners; false where no surface is known.
@@ -80,6 +84,7 @@ class TurnLimit {
   [[nodiscard]] double cosine_at_start(Index t, Index u) const;
   [[nodiscard]] std::uint8_t folds_to_turn_back(Index t) const;
   [[nodiscard]] double room_of(Index t) const;
+  [[nodiscard]] double room_beside_others(Index t) const;
   /// The neighbour over the edge opposite to a corner if that is a fold, else kNone.
   [[nodiscard]] Index over_fold(std::span<const Vec3> x, Index triangle, unsigned corner) const;
   [[nodiscard]] Vec3 area_at(std::span<const Vec3> x, Index triangle) const;
@@ -87,7 +92,7 @@ class TurnLimit {
   const SmoothingProblem& problem_;
   const ClosestPointIndex* surface_ = nullptr;
   std::vector<std::uint8_t> needed_;  // folds of either kind that a triangle has turned back with
-  std::vector<double> folding_cosines_;
+  std::vector<double> folding_cosines_, unfolded_cosines_;
 };
 
 }  // namespace isorelax
