@@ -303,8 +303,8 @@ void Editor::look(const std::string& spec) {
     camera_ = render::parse_camera(spec, session_.current->positions(), pane(), fit_options());
 }
 
-void Editor::say(model::MessageKind kind, const std::string& text) {
-  model::execute(session_, model::Say{{kind, text}});
+void Editor::say(model::MessageKind kind, const std::string& text, model::Topic topic) {
+  model::execute(session_, model::Say{{kind, text, topic}});
 }
 
 void Editor::carry_out(const ui::Output& output) {

@@ -125,7 +125,7 @@ class Editor {
   void save_script(const std::filesystem::path& path);
   void copy_view();
   void paste_view(const std::string& text);
-  void say(model::MessageKind kind, const std::string& text);
+  void say(model::MessageKind kind, const std::string& text, model::Topic topic = model::Topic::other);
 
   model::Session session_;
   ui::Interface interface_;

@@ -15,9 +15,9 @@ namespace isorelax::editor {
 void Editor::save_script(const std::filesystem::path& path) {
   try {
     write_file_atomically(path, script());
-    say(model::MessageKind::info, "Saved " + path.string());
+    say(model::MessageKind::info, "Saved " + path.string(), model::Topic::saving);
   } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
+    say(model::MessageKind::error, error.what(), model::Topic::saving);
   }
 }
 
@@ -42,9 +42,9 @@ void Editor::save_picture(const std::filesystem::path& path) {
       if (view.transparent) unmultiply(image);
       view::write_picture(path, {image, view});
     }
-    say(model::MessageKind::info, "Saved " + path.string());
+    say(model::MessageKind::info, "Saved " + path.string(), model::Topic::saving);
   } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
+    say(model::MessageKind::error, error.what(), model::Topic::saving);
   }
 }
 
@@ -67,9 +67,10 @@ void Editor::paste_view(const std::string& text) {
     const bool other_size = view.size != pane();
     const std::string size = std::to_string(view.size.width) + " x " + std::to_string(view.size.height);
     base_ = std::move(view);
-    say(model::MessageKind::info, "Pasted the view" + (other_size ? ", of a picture of " + size : ""));
+    say(model::MessageKind::info, "Pasted the view" + (other_size ? ", of a picture of " + size : ""),
+        model::Topic::view);
   } catch (const Error& error) {
-    say(model::MessageKind::error, error.what());
+    say(model::MessageKind::error, error.what(), model::Topic::view);
   }
 }
 

@@ -115,6 +115,10 @@ void Engine::run_one(const Job& job) {
   JobContext context(*this);
   try {
     job(context);
+  } catch (const InputError& error) {
+    publish(Failed{error.what(), Topic::reading});
+  } catch (const OutputError& error) {
+    publish(Failed{error.what(), Topic::saving});
   } catch (const Error& error) {
     publish(Failed{error.what()});
   } catch (const std::bad_alloc&) {

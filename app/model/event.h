@@ -142,9 +142,12 @@ struct Saved {
   MeshStatePtr state;
   std::vector<std::string> notes;
 };
+/// What a message is about: that something worked out answers the errors before it about the same.
+enum class Topic : std::uint8_t { other, reading, saving, view, comparison };
 /// A job could not do what it was asked; nothing else has changed.
 struct Failed {
   std::string text;
+  Topic topic = Topic::other;
 };
 /// A run could not start or broke off with an error.
 struct RunFailed {

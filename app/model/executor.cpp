@@ -29,8 +29,8 @@ constexpr std::array kMeasured{Coloring::min_angle, Coloring::max_angle, Colorin
 
 }  // namespace
 
-void Executor::say(MessageKind kind, std::string text) {
-  s_.messages.push_back({kind, std::move(text), ++s_.message_count_});
+void Executor::say(MessageKind kind, std::string text, Topic topic) {
+  s_.messages.push_back({kind, std::move(text), topic, ++s_.message_count_});
   if (s_.messages.size() > kMessagesKept) s_.messages.pop_front();
 }
 
@@ -134,7 +134,7 @@ void Executor::operator()(const CopyCommandLine& /*command*/) {
 }
 
 void Executor::operator()(const Say& command) {
-  say(command.message.kind, command.message.text);
+  say(command.message.kind, command.message.text, command.message.topic);
 }
 
 void Executor::operator()(const SetRecent& command) {
@@ -279,13 +279,13 @@ void Executor::operator()(Saved& event) {
   s_.kept_steps_ = s_.timeline.made_steps();
   s_.save_path = event.path;
   s_.activity = Activity::idle;
-  say(MessageKind::info, "Saved " + event.path.string());
+  say(MessageKind::info, "Saved " + event.path.string(), Topic::saving);
   for (const std::string& note : event.notes) say(MessageKind::warning, note);
   remember_recent(event.path);
 }
 
 void Executor::operator()(Failed& event) {
-  say(MessageKind::error, event.text);
+  say(MessageKind::error, event.text, event.topic);
   s_.when_idle_.clear();
   if (s_.activity != Activity::running) s_.activity = Activity::idle;
 }

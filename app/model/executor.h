@@ -73,7 +73,7 @@ class Executor {
   void operator()(MovingPath& event);
 
  private:
-  void say(MessageKind kind, std::string text);
+  void say(MessageKind kind, std::string text, Topic topic = Topic::other);
   void keep_result(const std::optional<RunResult>& result);
   void start_run(unsigned iterations, PartKind kind);
   [[nodiscard]] PartKind kind_here() const;

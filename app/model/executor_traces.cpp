@@ -43,7 +43,7 @@ void Executor::operator()(const SaveTrace& command) {
 
 void Executor::operator()(Wrote& event) {
   s_.kept_steps_ = s_.timeline.made_steps();
-  say(MessageKind::info, "Saved " + event.path.string());
+  say(MessageKind::info, "Saved " + event.path.string(), Topic::saving);
 }
 
 void Executor::operator()(const OpenTrace& command) {
@@ -90,7 +90,7 @@ void Executor::operator()(TraceOpened& event) {
     say(MessageKind::info,
         "Opened a run of " + std::to_string(s_.timeline.last()) + " iterations by " + event.head.program);
   } else {
-    say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline");
+    say(MessageKind::info, "Added " + event.path.filename().string() + " to the timeline", Topic::reading);
   }
   if (!event.unknown_words.empty())
     say(MessageKind::warning, "The editor has no setting for " + listed(event.unknown_words) +

@@ -21,6 +21,7 @@ enum class MessageKind : std::uint8_t { info, warning, error };
 struct Message {
   MessageKind kind = MessageKind::info;
   std::string text;
+  Topic topic = Topic::other;
   std::uint64_t number = 0;  ///< counts up: tells a view which ones are new
 };
 

@@ -115,7 +115,9 @@ void Interface::handle_keys(const Ui& ui, std::span<const KeyChanged> pressed) {
       ImGui::SetWindowFocus(nullptr);
       state_.playing.direction = 0;
       const model::Session& s = ui.session;
-      if (s.selected_triangle || s.selected_vertex || s.selected_limit)
+      if (const model::Message* message = notice(state_, s))
+        state_.dismissed_message = message->number;
+      else if (s.selected_triangle || s.selected_vertex || s.selected_limit)
         ui.command(model::ClearSelection{});
       else if (s.timeline.cursor.stage)
         ui.command(model::SetStage{});

@@ -40,6 +40,8 @@ void draw_compare_bar(const Ui& ui, const Rect& rect);
 [[nodiscard]] float compare_bar_height(const UiState& state, float width, float scale);
 /// Points that the names of pictures, and what is said of a selection, cover at the bottom.
 inline constexpr float kNameStrip = 46;
+/// The newest error or warning as long as it stands over the viewport; null: none does.
+[[nodiscard]] const model::Message* notice(const UiState& state, const model::Session& session);
 /// Whether what is said of a selected triangle stands over the viewport.
 [[nodiscard]] bool tells_selection(const UiState& state, const model::Session& session);
 

@@ -82,12 +82,18 @@ std::string notice_text(const Ui& ui, const model::Message& newest) {
   return text;
 }
 
-// The newest error or the warnings stay over the viewport until they are dismissed.
+// Whether what did not work has worked since.
+bool is_answered(const model::Session& session, const model::Message& message) {
+  if (message.topic == model::Topic::other) return false;
+  return std::ranges::any_of(session.messages, [&](const model::Message& m) {
+    return m.number > message.number && m.topic == message.topic && m.kind == model::MessageKind::info;
+  });
+}
+
+// The newest error or the warnings stay over the viewport until they are dismissed or answered.
 void draw_notice(const Ui& ui, const Rect& rect, float top) {
-  const auto& messages = ui.session.messages;
-  const auto found = std::find_if(messages.rbegin(), messages.rend(),
-                                  [](const model::Message& m) { return m.kind != model::MessageKind::info; });
-  if (found == messages.rend() || found->number <= ui.state.dismissed_message) return;
+  const model::Message* found = notice(ui.state, ui.session);
+  if (found == nullptr) return;
   const bool error = found->kind == model::MessageKind::error;
   const float margin = ui.px(14);
   const float width = std::min(ui.px(520), rect.width() - 2 * margin);
@@ -168,6 +174,15 @@ void draw_moment(const Ui& ui, const Rect& rect) {
 }
 
 }  // namespace
+
+const model::Message* notice(const UiState& state, const model::Session& session) {
+  const auto& messages = session.messages;
+  const auto found = std::find_if(messages.rbegin(), messages.rend(), [&](const model::Message& m) {
+    return m.kind != model::MessageKind::info && !is_answered(session, m);
+  });
+  const bool is_shown = found != messages.rend() && found->number > state.dismissed_message;
+  return is_shown ? &*found : nullptr;
+}
 
 bool tells_selection(const UiState& state, const model::Session& session) {
   // The inspector says it better.

@@ -124,6 +124,22 @@ TEST_F(InterfaceTest, ABadFileIsANoticeAndTheDocumentStays) {
   EXPECT_FALSE(shows("notice"));
 }
 
+TEST_F(InterfaceTest, ANoticeIsClosedByEscapeAndAnsweredByWhatWorksOut) {
+  open();
+  const auto fails = [&] {
+    model::execute(session, model::SaveFile{folder / "nowhere" / "square.off"});
+    settle_and_finish();
+    return shows("notice");
+  };
+  ASSERT_TRUE(fails());
+  press(Key::escape);
+  EXPECT_FALSE(shows("notice"));
+  ASSERT_TRUE(fails());
+  model::execute(session, model::SaveFile{folder / "saved.off"});
+  settle_and_finish();
+  EXPECT_FALSE(shows("notice"));
+}
+
 TEST_F(InterfaceTest, UnsavedWorkIsAskedForBeforeItIsLost) {
   open();
   press(Key::right);
