@@ -56,6 +56,7 @@ void Editor::frame(const FrameOptions& options) {
   const ui::Layout layout = ui::make_layout(interface_.state(), display, scale_);
   viewport_ = {std::max(1, static_cast<int>(layout.viewport.width())),
                std::max(1, static_cast<int>(layout.viewport.height()))};
+  if (session_.current) partner_.follow(session_, interface_.state().comparison);
   follow_document();
   move_camera(options.time);
   follow_motion();
@@ -91,8 +92,10 @@ view::View Editor::present_view() const {
   if (comparison.mode != ui::CompareMode::change || session_.view.coloring == model::Coloring::none)
     return view;
   view.difference = true;
-  view.against = session_.document->path.string();
-  if (session_.view.range_mode != model::RangeMode::typed) view.range = {};
+  const bool of_file = comparison.with == ui::CompareWith::file;
+  view.against = (of_file ? partner_.shown(session_, comparison).document : session_.document)->path.string();
+  // A typed one is that of the quantity itself, and 0 would not be in its middle.
+  view.range = {};
   return view;
 }
 
@@ -193,22 +196,18 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
 
 void Editor::draw_pictures() {
   ui::Comparison& comparison = interface_.state().comparison;
-  if (const std::string problem = partner_.take_over(comparison); !problem.empty())
-    say(model::MessageKind::error, problem);
+  if (const auto news = partner_.take_over(comparison)) model::execute(session_, model::Say{*news});
   if (!session_.current) {
     current_.drawn = before_.drawn = false;
     others_.clear();
     return;
   }
-  partner_.follow(session_, comparison);
+  if (const auto refusal = partner_.require_change(session_, comparison))
+    model::execute(session_, model::Say{*refusal});
   Shown before = partner_.shown(session_, comparison);
-  const bool comparable =
-      before.state &&
-      before.document->mesh().triangles.size() == session_.document->mesh().triangles.size() &&
-      before.state->positions().size() == session_.current->positions().size();
-  // Arrows and a change from what has other triangles would mean nothing.
   Shown now = shown_now();
-  if (comparable) now.against = before.state;
+  // Arrows from what has other triangles would mean nothing.
+  if (partner_.is_comparable(session_, comparison)) now.against = before.state;
   draw(current_, now, present_view());
   draw_others();
   draw_legend();

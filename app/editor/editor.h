@@ -144,7 +144,8 @@ class Editor {
   render::Camera framed_;           ///< as it was when it last framed the mesh by itself or when asked to
   Eigen::AlignedBox3d framed_box_;  ///< of the moving surface in it
   std::optional<render::PictureSize> framed_pane_;  ///< of several beside each other when it did
-  std::optional<render::Camera> framed_alone_;      ///< as it was before there were several
+  bool framed_change_ = false;                      ///< with the legend of a change when it did
+  std::optional<render::Camera> framed_alone_;      ///< as it was before there were several, or a change
   model::DocumentPtr shown_document_;
   render::PictureSize viewport_;
   float scale_ = 1;

@@ -32,6 +32,7 @@ void Editor::follow_document() {
   camera_ = framed_ = render::default_camera(session_.document->mesh().positions, pane(), fit_options());
   framed_box_.setEmpty();
   framed_pane_ = panes() > 1 ? std::optional(pane()) : std::nullopt;
+  framed_change_ = interface_.state().comparison.mode == ui::CompareMode::change;
   framed_alone_.reset();
   flight_.reset();
 }
@@ -82,17 +83,20 @@ bool Editor::shows_names() const {
   return panes() > 1 || shows_before();
 }
 
-// Pictures beside each other have less room than one, and what each has depends on the window. A camera that
-// the user moved stays; one that was not is what it was when a single picture is left.
+// Pictures beside each other have less room than one, and what each has depends on the window; the legend of
+// a change is wider. A camera that the user moved stays; one that was not is what it was when a single plain
+// picture is left.
 void Editor::follow_panes() {
   if (!session_.current) return;
   const std::optional<render::PictureSize> room = panes() > 1 ? std::optional(pane()) : std::nullopt;
-  if (room == framed_pane_) return;
-  const bool was_alone = !framed_pane_;
+  const bool change = interface_.state().comparison.mode == ui::CompareMode::change;
+  if (room == framed_pane_ && change == framed_change_) return;
+  const bool was_alone = !framed_pane_ && !framed_change_;
   framed_pane_ = room;
+  framed_change_ = change;
   if (flight_ || !(camera_ == framed_)) return;
   if (was_alone) framed_alone_ = framed_;
-  camera_ = framed_ = !room && framed_alone_ ? *framed_alone_ : framed(camera_);
+  camera_ = framed_ = !room && !change && framed_alone_ ? *framed_alone_ : framed(camera_);
 }
 
 void Editor::move_camera(double time) {

@@ -5,6 +5,14 @@
 #include "mesh/error.h"
 
 namespace isorelax::editor {
+namespace {
+
+bool same_triangles(const model::DocumentPtr& a, const model::DocumentPtr& b) {
+  return a && b && a->mesh().vertex_count() == b->mesh().vertex_count() &&
+         a->mesh().triangles == b->mesh().triangles;
+}
+
+}  // namespace
 
 void Partner::remember(const model::Session& session, ui::Comparison& comparison) {
   remembered_ = session.current;
@@ -23,24 +31,46 @@ void Partner::read(const std::filesystem::path& path) {
   });
 }
 
-std::string Partner::take_over(ui::Comparison& comparison) {
+std::optional<model::Message> Partner::take_over(ui::Comparison& comparison) {
   if (!reading_.valid() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
   try {
     file_ = reading_.get();
   } catch (const Error& error) {
-    return error.what();
+    return model::Message{model::MessageKind::error, error.what(), model::Topic::comparison};
   }
+  file_fits_ = same_triangles(file_.document, document_);
   comparison.file = file_.document->path.filename().string();
   comparison.with = ui::CompareWith::file;
-  return {};
+  return model::Message{model::MessageKind::info, "Read " + comparison.file + " to compare with",
+                        model::Topic::comparison};
 }
 
 void Partner::follow(const model::Session& session, ui::Comparison& comparison) {
-  if (document_ == session.document) return;
-  document_ = session.document;
-  remembered_.reset();
-  comparison.remembers = false;
-  if (comparison.with == ui::CompareWith::remembered) comparison.with = ui::CompareWith::original;
+  if (document_ != session.document) {
+    document_ = session.document;
+    file_fits_ = same_triangles(file_.document, document_);
+    remembered_.reset();
+    comparison.remembers = false;
+  }
+  const bool is_there = comparison.with == ui::CompareWith::remembered ? remembered_ != nullptr
+                        : comparison.with == ui::CompareWith::file     ? file_.document != nullptr
+                        : comparison.with == ui::CompareWith::beside   ? !session.shown_branches.empty()
+                                                                       : true;
+  if (!is_there) comparison.with = ui::CompareWith::original;
+}
+
+std::optional<model::Message> Partner::require_change(const model::Session& session,
+                                                      ui::Comparison& comparison) const {
+  if (comparison.mode != ui::CompareMode::change || is_comparable(session, comparison)) return {};
+  comparison.with = ui::CompareWith::original;
+  return model::Message{model::MessageKind::error,
+                        comparison.file + ": has other vertices or triangles than " +
+                            session.document->path.filename().string() + ", so there is no change from it",
+                        model::Topic::comparison};
+}
+
+bool Partner::is_comparable(const model::Session& session, const ui::Comparison& comparison) const {
+  return comparison.with == ui::CompareWith::file ? file_fits_ : shown(session, comparison).state != nullptr;
 }
 
 Shown Partner::shown(const model::Session& session, const ui::Comparison& comparison) const {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <string>
 
 #include "editor/view_scene.h"
@@ -18,14 +19,20 @@ class Partner {
   void remember(const model::Session& session, ui::Comparison& comparison);
   /// Begins to read a mesh; take_over has it when it is there.
   void read(const std::filesystem::path& path);
-  /// Takes over a mesh that has been read. Returns what is to be told: an error, or nothing.
-  std::string take_over(ui::Comparison& comparison);
+  /// Takes over a mesh that has been read. Returns what is to be told of it, once.
+  std::optional<model::Message> take_over(ui::Comparison& comparison);
   [[nodiscard]] bool is_reading() const { return reading_.valid(); }
-  /// Forgets states of another document.
+  /// Forgets states of another document, and goes back to the original from what is not there.
   void follow(const model::Session& session, ui::Comparison& comparison);
+  /// Where a change is asked for from what has other triangles, goes back to the original. Returns what is to
+  /// be told of that.
+  std::optional<model::Message> require_change(const model::Session& session,
+                                               ui::Comparison& comparison) const;
 
   /// What the comparison asks for; a null state where there is none.
   [[nodiscard]] Shown shown(const model::Session& session, const ui::Comparison& comparison) const;
+  /// Whether that has the vertices and triangles of the session's mesh.
+  [[nodiscard]] bool is_comparable(const model::Session& session, const ui::Comparison& comparison) const;
 
  private:
   struct FromFile {
@@ -36,6 +43,7 @@ class Partner {
   model::DocumentPtr document_;
   model::MeshStatePtr remembered_;
   FromFile file_;
+  bool file_fits_ = false;  ///< it has the document's triangles
   std::future<FromFile> reading_;
 };
 

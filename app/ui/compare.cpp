@@ -73,11 +73,12 @@ void choose_partner(const Ui& ui, float room) {
   Comparison& comparison = ui.state.comparison;
   const std::string remembered = comparison.remembers ? comparison.remembered : "Remember this state";
   const std::string file = comparison.file.empty() ? "Another file..." : comparison.file;
-  const std::array<std::string_view, 4> labels{"Original", remembered, file, "The run beside"};
+  const std::array<MenuEntry, 4> entries{
+      {{"Original"}, {remembered}, {file}, {"The run beside", !ui.session.shown_branches.empty()}}};
   const float buttons =
       button_width(ui, "Remember", Icon::none) + button_width(ui, "File", Icon::open) + ui.px(6);
   ImGui::SetNextItemWidth(std::clamp(room - buttons, ui.px(60), ui.px(180)));
-  const int choice = combo(ui, "compare-with", labels, static_cast<int>(comparison.with));
+  const int choice = menu(ui, "compare-with", entries, static_cast<int>(comparison.with));
   tooltip(ui, "What the mesh is compared with.");
   ImGui::SameLine(0, ui.px(4));
   if (button(ui, "remember", "Remember", {.look = ButtonLook::quiet})) {

@@ -335,7 +335,7 @@ void draw_range(const Ui& ui, model::ViewSettings& view) {
   constexpr const char* kTip =
       "The ends of the colour scale: fit for all iterations, so that colours can be compared; fit for the "
       "present state; "
-      "or typed. Values outside are grey.";
+      "or typed. Values outside are grey. A change has its own ends, with 0 in the middle.";
   row_label(ui, "Range", kTip);
   const int choice =
       segmented(ui, "range", kLabels, static_cast<int>(view.range_mode), ImGui::GetContentRegionAvail().x);

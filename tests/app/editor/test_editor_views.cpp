@@ -209,6 +209,50 @@ TEST_F(EditorViews, BeforeAndAfterAreComparedOnOneCamera) {
   EXPECT_TRUE(same(part("viewport"), current, 0, current.width));
 }
 
+TEST_F(EditorViews, AChangeIsFromWhatItSaysOrToldToBeNone) {
+  open(folder.make_square());
+  run(20);
+  compare(ui::CompareMode::change);
+  const Image from_original = part("viewport");
+  click("compare-with");
+  click("compare-with/The run beside");
+  press(ui::Key::escape);
+  const ui::Comparison& comparison = editor.interface().state().comparison;
+  EXPECT_EQ(comparison.with, ui::CompareWith::original) << "there is one run";
+  (void)folder.make_square(100, "other.off");
+  click("compare-file");
+  type("other.off");
+  click("browser-accept");
+  keep("compare_change_refused");
+  EXPECT_EQ(comparison.with, ui::CompareWith::original);
+  EXPECT_EQ(editor.session().messages.back().text,
+            "other.off: has other vertices or triangles than square.off, so there is no change from it");
+  click("dismiss");
+  EXPECT_TRUE(part("viewport") == from_original);
+}
+
+TEST_F(EditorViews, TheMeshStandsClearOfTheWiderLegendOfAChange) {
+  open(folder.make_square());
+  run(5);
+  const render::Camera before = editor.camera();
+  compare(ui::CompareMode::change);
+  EXPECT_GT(editor.camera().extent, before.extent);
+  compare(ui::CompareMode::off);
+  EXPECT_EQ(editor.camera(), before);
+}
+
+TEST_F(EditorViews, AChangeHasZeroInTheMiddleWhateverRangeIsTyped) {
+  open(folder.make_square());
+  run(20);
+  compare(ui::CompareMode::change);
+  const Image change = part("viewport");
+  model::ViewSettings settings = editor.session().view;
+  settings.range_mode = model::RangeMode::typed;
+  editor.act(model::SetView{settings});
+  settle();
+  EXPECT_TRUE(part("viewport") == change);
+}
+
 TEST_F(EditorViews, ASavedPictureShowsRunsBesideEachOther) {
   open(folder.make_square());
   editor.session().smoothing.iterations = 3;
