@@ -153,11 +153,17 @@ void deliver(const Ui& ui, const fs::path& path) {
   }
 }
 
+// Says why a name cannot be taken, and lets it be typed again.
+void refuse(FileBrowser& browser, const std::string& why) {
+  browser.error = why;
+  browser.focus_name = true;
+}
+
 // Takes what is typed or selected: enters a folder, or delivers a file after a look at it.
 void accept(const Ui& ui) {
   FileBrowser& browser = ui.state.browser;
   if (browser.name.empty()) {
-    browser.error = "Choose a file or type its name.";
+    refuse(browser, "Choose a file or type its name.");
     return;
   }
   const fs::path path = browser.folder / browser.name;  // an absolute name replaces the folder
@@ -172,17 +178,17 @@ void accept(const Ui& ui) {
     if (exists)
       deliver(ui, path);
     else
-      browser.error = path.string() + ": there is no such file";
+      refuse(browser, path.string() + ": there is no such file");
     return;
   }
   if (!fits(browser.purpose, path))
-    browser.error = browser.purpose == FilePurpose::save_picture  ? "The name of a picture ends in .png"
+    refuse(browser, browser.purpose == FilePurpose::save_picture  ? "The name of a picture ends in .png"
                     : browser.purpose == FilePurpose::save_script ? "The name of a script ends in .script"
                     : browser.purpose == FilePurpose::save_trace
                         ? "The name of a trace ends in .trace"
-                        : "The extension of a mesh is one of " + model::mesh_formats();
+                        : "The extension of a mesh is one of " + model::mesh_formats());
   else if (!fs::is_directory(path.parent_path(), error))
-    browser.error = path.parent_path().string() + ": there is no such folder";
+    refuse(browser, path.parent_path().string() + ": there is no such folder");
   else if (exists)
     browser.overwrite = path;
   else
@@ -248,7 +254,9 @@ void draw_entries(const Ui& ui, float height) {
   ImGui::PushStyleColor(ImGuiCol_ChildBg, to_vec4(color::kBackdrop));
   ImGui::BeginChild("entries", {0, height}, false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
-  if (browser.entries.empty()) text_in(ui.fonts.text, color::kTextFaint, "Nothing to open here.");
+  if (browser.entries.empty())
+    text_in(ui.fonts.text, color::kTextFaint,
+            saves(browser.purpose) ? "No such files here yet." : "Nothing to open here.");
   int opened = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(browser.entries.size()), ImGui::GetTextLineHeightWithSpacing());
@@ -311,8 +319,10 @@ void draw_folder_line(const Ui& ui) {
 void draw_name_line(const Ui& ui) {
   FileBrowser& browser = ui.state.browser;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ui.px(110));
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  if (ImGui::InputTextWithHint("##name", "File name or path", &browser.name)) {
+  if (browser.focus_name) ImGui::SetKeyboardFocusHere();
+  browser.focus_name = false;
+  if (ImGui::InputTextWithHint("##name", "File name or path", &browser.name,
+                               ImGuiInputTextFlags_AutoSelectAll)) {
     browser.error.clear();
     browser.overwrite.clear();
     browser.selected = -1;
@@ -349,7 +359,7 @@ void draw_answers(const Ui& ui) {
 
 void ask_for_file(const Ui& ui, FilePurpose purpose) {
   FileBrowser& browser = ui.state.browser;
-  browser.wanted = true;
+  browser.wanted = browser.focus_name = true;
   browser.purpose = purpose;
   browser.name.clear();
   std::error_code error;

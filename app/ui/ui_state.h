@@ -127,6 +127,7 @@ struct FileBrowser {
   int selected = -1;
   bool all_files = false;
   bool scroll_to_selected = false;
+  bool focus_name = false;          ///< the field of the name gets the keyboard, all of it selected
   std::string error;                ///< shown in the dialog until something else is done
   std::filesystem::path overwrite;  ///< waits for "Replace?"; empty: no question
 };

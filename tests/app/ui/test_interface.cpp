@@ -112,6 +112,22 @@ TEST_F(InterfaceTest, AMissingFileIsAMessageInTheBrowserWhichEscapeCloses) {
   EXPECT_FALSE(shows("browser-accept"));
 }
 
+TEST_F(InterfaceTest, WhatIsTypedTakesThePlaceOfASuggestedOrRefusedName) {
+  open();
+  press(Key::o, {.control = true});
+  type("square.off");
+  press(Key::escape);
+  press(Key::s, {.control = true});
+  type("bad.name");
+  EXPECT_EQ(interface.state().browser.name, "bad.name") << "not inside the suggestion";
+  press(Key::enter);
+  EXPECT_TRUE(shows("browser-note"));
+  EXPECT_EQ(interface.state().focused, "name");
+  type("good.off");
+  EXPECT_EQ(interface.state().browser.name, "good.off");
+  click("browser-cancel");
+}
+
 TEST_F(InterfaceTest, ABadFileIsANoticeAndTheDocumentStays) {
   open();
   const auto document = session.document;
