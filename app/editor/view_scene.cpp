@@ -29,6 +29,7 @@ const render::Scene& ViewScene::make(const Shown& shown, const view::View& view)
   subject.values = state->values(coloring_of(color_));
   subject.boundary_marks = document_->boundary_marks;
   subject.faces_inward = document_->faces_inward;
+  subject.plane_normal = document_->plane_normal;
   if (against) subject.against = against->positions();
   subject.report = &state->quality();
   subject.positions_revision = positions_;

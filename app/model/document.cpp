@@ -1,32 +1,12 @@
 #include "model/document.h"
 
-#include <cmath>
-#include <span>
 #include <utility>
 
+#include "quality/inverted.h"
 #include "surface/deviation.h"
 
 namespace isorelax::model {
 namespace {
-
-// The plane through the mesh, from the sum of the triangles' area vectors; a closed surface has none.
-std::optional<Vec3> find_plane(const TriangleMesh& mesh) {
-  Vec3 sum = Vec3::Zero();
-  for (const Triangle& t : mesh.triangles)
-    sum += area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-  if (sum.norm() == 0) return std::nullopt;
-  const Vec3 normal = sum.normalized();
-  double low = INFINITY;
-  double high = -INFINITY;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : mesh.positions) {
-    low = std::min(low, normal.dot(p));
-    high = std::max(high, normal.dot(p));
-    box.extend(p);
-  }
-  if (high - low > 1e-9 * box.diagonal().norm()) return std::nullopt;
-  return normal;
-}
 
 std::vector<std::uint8_t> mark_boundary(const Topology& topology) {
   std::vector<std::uint8_t> marks(topology.triangle_count());
@@ -44,7 +24,8 @@ std::shared_ptr<Document> complete(std::filesystem::path path, MeshFile file) {
   document->path = std::move(path);
   document->file = std::move(file);
   document->topology = Topology(document->mesh().triangles, document->mesh().vertex_count());
-  document->plane_normal = find_plane(document->mesh());
+  document->plane_normal =
+      plane_normal(document->mesh().positions, document->mesh().triangles, document->topology);
   document->boundary_marks = mark_boundary(document->topology);
   document->faces_inward = faces_inward(document->mesh().positions, document->mesh().triangles);
   return document;

@@ -19,7 +19,7 @@ struct Document {
   std::filesystem::path path;
   MeshFile file;
   Topology topology;
-  /// Unit normal of the plane that holds all vertices (to 1e-9 of the extent); none for a mesh in space.
+  /// See isorelax::plane_normal; none for a mesh in space.
   std::optional<Vec3> plane_normal;
   /// Per triangle: bit k is set where the edge opposite corner k has no other triangle.
   std::vector<std::uint8_t> boundary_marks;

@@ -43,6 +43,15 @@ bool has_lines(const SceneMesh& mesh) {
          !mesh.highlighted_faces.empty();
 }
 
+/// Whether the camera is on the side of a planar mesh to which most of its triangles show their backs.
+bool is_seen_from_behind(const SceneMesh& mesh, const Camera& camera) {
+  if (!mesh.plane_normal || mesh.positions.empty()) return false;
+  Vec3 toward_eye = axes_of(camera).toward_eye;
+  if (camera.projection == Projection::perspective)
+    toward_eye = camera.target + eye_distance(camera) * toward_eye - mesh.positions.front();
+  return mesh.plane_normal->dot(toward_eye) < 0;
+}
+
 struct OverlayTexture {
   GlTexture texture;
   PictureSize size;
@@ -189,7 +198,7 @@ void Renderer::Impl::draw_meshes(const Scene& scene, const Camera& camera, Pictu
     program.set("relief", mesh.face_values.empty() ? kPlainRelief : kColoredRelief);
     program.set("faces_shown", mesh.faces_shown ? 1 : 0);
     program.set("backs_marked", mesh.backs_marked ? 1 : 0);
-    program.set("faces_inward", mesh.faces_inward ? 1 : 0);
+    program.set("faces_inward", mesh.faces_inward != is_seen_from_behind(mesh, camera) ? 1 : 0);
     program.set("wire_shown", mesh.wire.shown ? 1 : 0);
     program.set("wire_color", wire);
     program.set("wire_half_width", half_pixels(mesh.wire.width));

@@ -65,6 +65,9 @@ struct SceneMesh {
       true;  ///< else edges alone are seen, with nothing between them; faces still hide what is behind
   bool backs_marked = true;   ///< the backs of faces are wine-red
   bool faces_inward = false;  ///< the sides whose corners run clockwise are the fronts
+  /// Of a mesh in a plane, which has no inside: its normal, with the sign of most triangles. Their fronts are
+  /// on whichever side is seen.
+  std::optional<Vec3> plane_normal;
   Wire wire;
   EdgeStyle marked_edges;
   Color crease_color{255, 122, 61};

@@ -9,6 +9,7 @@
 
 #include "mesh/error.h"
 #include "mesh/topology.h"
+#include "quality/inverted.h"
 #include "render/overlay.h"
 #include "surface/deviation.h"
 #include "view/measures.h"
@@ -22,6 +23,7 @@ struct Prepared {
   std::vector<double> values;
   std::vector<std::uint8_t> boundary;
   bool faces_inward = false;
+  std::optional<Vec3> plane_normal;
   std::optional<QualityReport> report;
 };
 
@@ -64,8 +66,9 @@ std::vector<Prepared> prepare(const View& view, const Exhibits& exhibits) {
     made.values = values_of(view, *mesh, exhibits.against);
     if (mesh->triangles.empty()) continue;
     made.faces_inward = faces_inward(mesh->positions, mesh->triangles);
-    if (view.boundary)
-      made.boundary = render::mark_boundary_edges(Topology(mesh->triangles, mesh->vertex_count()));
+    const Topology topology(mesh->triangles, mesh->vertex_count());
+    made.plane_normal = plane_normal(mesh->positions, mesh->triangles, topology);
+    if (view.boundary) made.boundary = render::mark_boundary_edges(topology);
     if (view.numbers) made.report = measure_quality(*mesh);
   }
   return all;
@@ -140,6 +143,7 @@ Subject subject_of(const View& view, const Exhibits& exhibits, const Prepared& p
   subject.values = prepared.values;
   subject.boundary_marks = prepared.boundary;
   subject.faces_inward = prepared.faces_inward;
+  subject.plane_normal = prepared.plane_normal;
   if (exhibits.against != nullptr) subject.against = exhibits.against->positions;
   if (prepared.report) subject.report = &*prepared.report;
   subject.label = label_of(view, i, exhibits.meshes.size());

@@ -124,6 +124,7 @@ Depiction depict(const View& view, const render::Coloring& coloring, const Subje
   mesh.triangles_revision = subject.triangles_revision;
   mesh.values_revision = subject.values_revision;
   mesh.faces_inward = subject.faces_inward;
+  mesh.plane_normal = subject.plane_normal;
   mesh.coloring = coloring;
   mesh.shading = view.shading;
   mesh.wire.shown = view.wire;

@@ -25,6 +25,7 @@ struct Subject {
   std::span<const double> values;
   std::span<const std::uint8_t> boundary_marks;  ///< see mark_boundary_edges; only read with View::boundary
   bool faces_inward = false;                     ///< see isorelax::faces_inward
+  std::optional<Vec3> plane_normal;              ///< see isorelax::plane_normal
   std::span<const Vec3> against;                 ///< vertices of the mesh that arrows start from
   const QualityReport* report = nullptr;         ///< only read with View::numbers
   std::string label;                             ///< empty: none

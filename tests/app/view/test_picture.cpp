@@ -111,6 +111,22 @@ TEST_F(PictureTest, a_mesh_that_faces_inward_shows_its_quality_like_any_other) {
   EXPECT_EQ(draw(view, {&turned}), draw(view, {&torus_}));
 }
 
+TEST_F(PictureTest, a_planar_mesh_looks_the_same_whichever_way_all_its_triangles_run) {
+  TriangleMesh square;
+  square.positions = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0.4, 0}};
+  square.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  TriangleMesh turned = square;
+  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  View view = small_view();
+  for (const char* camera : {"fit", "20,-30:perspective"}) {
+    view.camera = camera;
+    EXPECT_EQ(draw(view, {&turned}), draw(view, {&square})) << camera;
+    TriangleMesh mixed = turned;
+    std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
+    EXPECT_FALSE(draw(view, {&mixed}) == draw(view, {&square})) << camera << ": one lies against the others";
+  }
+}
+
 TEST_F(PictureTest, values_outside_the_range_are_grey) {
   View view = small_view();
   view.range = {RangeRule::ends, {50, 60}};
