@@ -81,6 +81,18 @@ double Font::width(std::string_view text) {
   return sum;
 }
 
+std::string Font::fitted(std::string_view text, double room) {
+  if (width(text) <= room) return std::string(text);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (!text.empty()) {
+    while (text.size() > 1 && continues(text.back())) text.remove_suffix(1);
+    text.remove_suffix(1);
+    std::string shorter = std::string(text) + "\xE2\x80\xA6";
+    if (width(shorter) <= room) return shorter;
+  }
+  return {};
+}
+
 double Font::cap_height() const {
   return impl_->cap_height;
 }

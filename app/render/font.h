@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Font {
 
   /// Width of a UTF-8 text in pixels.
   [[nodiscard]] double width(std::string_view text);
+  /// The text, or as much of it as fits into a width with an ellipsis behind.
+  [[nodiscard]] std::string fitted(std::string_view text, double room);
   /// Height of the capital H in pixels.
   [[nodiscard]] double cap_height() const;
 

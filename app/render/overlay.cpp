@@ -26,16 +26,23 @@ struct Inks {
   Color dim;
 };
 
-Inks inks_for(const Background& background) {
-  const Color middle = mix(background.top, background.bottom, 0.5);
-  const bool dark = luminance(middle) < 0.2;
-  const Color text = dark ? Color{232, 235, 240} : Color{30, 33, 39};
+constexpr Color kDarkInk{30, 33, 39};
+constexpr Color kLightInk{232, 235, 240};
+
+Inks inks_for(const Scene& scene) {
+  const Color middle =
+      scene.transparent ? Color{255, 255, 255} : mix(scene.background.top, scene.background.bottom, 0.5);
+  const Color text = luminance(middle) < 0.2 ? kLightInk : kDarkInk;
   return {text, mix(middle, text, 0.62)};
 }
 
 /// A veil of the background's own colours behind what is written: seen only where a mesh stands behind it.
+/// Where nobody knows what will be behind the picture, a light one that the dark ink can be read on.
 void veil(Canvas& canvas, const Scene& scene, int top, PictureSize size) {
-  if (scene.transparent) return;
+  if (scene.transparent) {
+    canvas.fill(0, 0, canvas.image().width, canvas.image().height, {255, 255, 255}, 0.85);
+    return;
+  }
   const Background& background = scene.background;
   for (int y = 0; y < canvas.image().height; ++y) {
     const double below_top = std::clamp((top + y + 0.5) / size.height, 0.0, 1.0);
@@ -65,7 +72,7 @@ class LegendLayout {
 
   /// The legend with its upper left corner at row `top` of the picture.
   Image paint(const Scene& scene, PictureSize size, int top) {
-    const Inks inks = inks_for(scene.background);
+    const Inks inks = inks_for(scene);
     Canvas canvas(width(), height());
     veil(canvas, scene, top, size);
     double y = points(kPad) + font_.cap_height();
@@ -159,22 +166,22 @@ class LegendLayout {
 Overlay make_caption(const Scene& scene, PictureSize size, double scale) {
   Font font(kTextSize * scale);
   const double pad = 0.5 * kPad * scale;
-  const int width = static_cast<int>(std::ceil(font.width(scene.caption) + 2 * pad));
+  const std::string caption = font.fitted(scene.caption, size.width - 2 * kEdge * scale);
+  const int width = static_cast<int>(std::ceil(font.width(caption) + 2 * pad));
   const int height = static_cast<int>(std::ceil(kLine * scale));
   const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
   const int top = size.height - edge - height - static_cast<int>(std::lround(scene.caption_lift * scale));
-  Canvas canvas(std::min(width, size.width), height);
+  Canvas canvas(width, height);
   veil(canvas, scene, top, size);
-  canvas.text(font, scene.caption, pad, 0.5 * (height + font.cap_height()), Align::left,
-              inks_for(scene.background).text);
+  canvas.text(font, caption, pad, 0.5 * (height + font.cap_height()), Align::left, inks_for(scene).text);
   return {canvas.image(), edge, top};
 }
 
-/// Lines at the upper left; a tab begins the second column, whose numbers end at one edge.
-Overlay make_notes(const Scene& scene, PictureSize size, double scale) {
+/// Lines at the upper left, in so much of the picture's width; a tab begins the second column, whose numbers
+/// end at one edge. Where both columns do not fit, the numbers stay whole.
+Overlay make_notes(const Scene& scene, PictureSize size, double scale, double room) {
   Font font(kTextSize * scale);
   const double pad = 0.5 * kPad * scale;
-  const double gap = 2 * kPad * scale;
   const auto halves = [](const std::string& line) {
     const std::size_t tab = std::min(line.find('\t'), line.size());
     return std::pair{line.substr(0, tab), tab == line.size() ? std::string() : line.substr(tab + 1)};
@@ -187,17 +194,20 @@ Overlay make_notes(const Scene& scene, PictureSize size, double scale) {
     else
       left = std::max(left, font.width(name)), right = std::max(right, font.width(number));
   }
-  const double inner = std::max(whole, right > 0 ? left + gap + right : 0.0);
+  room -= 2 * kEdge * scale;
+  const double gap = (left + right + 2 * kPad * scale <= room ? 2 : 1) * kPad * scale;
+  const double inner = std::min(room, std::max(whole, right > 0 ? left + gap + right : 0.0));
   const int width = static_cast<int>(std::ceil(inner + 2 * pad));
   const int height = static_cast<int>(std::ceil(scale * kLine * static_cast<double>(scene.notes.size())));
   const int edge = static_cast<int>(std::lround(kEdge * scale - pad));
   Canvas canvas(std::clamp(width, 1, size.width), std::clamp(height, 1, size.height));
   veil(canvas, scene, edge, size);
-  const Inks inks = inks_for(scene.background);
+  const Inks inks = inks_for(scene);
   double y = 0.5 * (kLine * scale + font.cap_height());
   for (const std::string& line : scene.notes) {
     const auto [name, number] = halves(line);
-    canvas.text(font, name, pad, y, Align::left, number.empty() ? inks.text : inks.dim);
+    const std::string shown = font.fitted(name, number.empty() ? inner : inner - gap - font.width(number));
+    canvas.text(font, shown, pad, y, Align::left, number.empty() ? inks.text : inks.dim);
     canvas.text(font, number, pad + inner, y, Align::right, inks.text);
     y += kLine * scale;
   }
@@ -223,7 +233,11 @@ std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
     overlays.push_back({layout.paint(scene, size, top), size.width - edge - layout.width(), top});
   }
   if (!scene.caption.empty()) overlays.push_back(make_caption(scene, size, scale));
-  if (!scene.notes.empty()) overlays.push_back(make_notes(scene, size, scale));
+  if (!scene.notes.empty()) {
+    const double bottom = (kEdge + kLine * static_cast<double>(scene.notes.size())) * scale;
+    const bool beside_legend = scene.legend && overlays.front().top < bottom;
+    overlays.push_back(make_notes(scene, size, scale, beside_legend ? overlays.front().left : size.width));
+  }
   return overlays;
 }
 

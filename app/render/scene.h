@@ -100,7 +100,7 @@ struct Scene {
   std::vector<Marker> markers;
   Arrows arrows;
   Background background = kDarkBackground;
-  /// Nothing behind the mesh; `background` still decides whether text is dark or light.
+  /// Nothing behind the mesh; text is dark on a light plate.
   bool transparent = false;
   std::optional<Legend> legend;
   std::string caption;             ///< one line at the lower left, UTF-8; empty: none

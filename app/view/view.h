@@ -74,7 +74,7 @@ struct View {
   std::vector<std::string> labels;  ///< one for each mesh; empty: file names where there are several
   render::Shading shading = render::Shading::flat;
   render::Background background = render::kDarkBackground;
-  bool transparent = false;  ///< nothing behind the mesh; text has the ink for `background`
+  bool transparent = false;  ///< nothing behind the mesh; text is dark on a light plate
   render::PictureSize size;
   int supersampling = 1;          ///< 1..4: drawn so many times larger, then averaged
   double points = 0;              ///< pixels per point of lines and text; 0: by the picture's size

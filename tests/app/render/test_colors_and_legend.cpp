@@ -182,6 +182,41 @@ TEST(Overlay, the_legend_stays_inside_pictures_of_any_size) {
   }
 }
 
+TEST(Overlay, numbers_stay_whole_in_narrow_pictures) {
+  Scene scene;
+  scene.notes = {"Largest / least area\t1.23"};
+  const auto end_of_notes = [&](PictureSize size) {
+    const Overlay notes = make_overlays(scene, size).back();
+    int last = 0;
+    for (int y = 0; y < notes.bitmap.height; ++y)
+      for (int x = 0; x < notes.bitmap.width; ++x)
+        if (notes.bitmap.at(x, y)[0] > 150) last = std::max(last, notes.left + x);
+    return last;
+  };
+  EXPECT_GT(end_of_notes({120, 200}), 90);
+  EXPECT_LT(end_of_notes({120, 200}), 112);
+  scene.notes.clear();
+  scene.caption = "a_file_with_a_very_long_name.off";
+  const Overlay caption = make_overlays(scene, {120, 200}).back();
+  EXPECT_LT(caption.left + caption.bitmap.width, 120) << "it ends in an ellipsis";
+  Font font(20);
+  EXPECT_EQ(font.fitted("part.off", font.width("part\u2026") + 1), "part\u2026");
+}
+
+TEST(Overlay, text_on_nothing_is_legible_on_black_and_on_white) {
+  Scene scene;
+  scene.transparent = true;
+  scene.caption = "part.off";
+  const Image caption = make_overlays(scene, {1920, 1440}).back().bitmap;
+  int dark = 0, light = 0;
+  for (std::size_t k = 0; k < caption.pixels.size(); k += 4) {
+    dark += caption.pixels[k + 3] > 230 && caption.pixels[k] < 60;
+    light += caption.pixels[k + 3] > 200 && caption.pixels[k] > 180;
+  }
+  EXPECT_GT(dark, 50);
+  EXPECT_GT(light, 50);
+}
+
 TEST(Background, is_read_from_names_and_numbers) {
   EXPECT_EQ(parse_background("white"), kWhiteBackground);
   EXPECT_EQ(parse_background("#102030").top, (Color{16, 32, 48}));
