@@ -187,7 +187,9 @@ class CompareCommand : public Command {
     const bool folders[] = {std::filesystem::is_directory(a_), std::filesystem::is_directory(b_)};
     if (folders[0] != folders[1]) throw UsageError("a folder can only be compared with a folder");
     if (folders[0]) return compare::compare_folders(a_, b_, image_, detail);
-    if (is_picture(a_) != is_picture(b_)) throw UsageError("a picture can only be compared with a picture");
+    if (is_picture(a_) != is_picture(b_))
+      throw UsageError((is_picture(a_) ? b_ : a_) +
+                       ": is no PNG picture, named .png, and a picture can only be compared with one");
     if (is_picture(a_)) return {compare::compare_picture_files(a_, b_, image_, detail)};
     const bool runs[] = {is_trace(a_), is_trace(b_)};
     if (runs[0] != runs[1]) throw UsageError("a recorded run can only be compared with a recorded run");

@@ -139,7 +139,11 @@ class QualityCommand : public Command {
     std::optional<ReferenceReport> against;
     if (!reference_.empty()) {
       const ReferenceChoice choice = parse_reference(console, reference_, mesh);
-      against = measure_against(make_reference(choice, mesh.positions, mesh.triangles), mesh);
+      try {
+        against = measure_against(make_reference(choice, mesh.positions, mesh.triangles), mesh);
+      } catch (const MeshError& error) {  // gets the name of its file
+        throw MeshError(file_ + ": " + error.what());
+      }
       report.shape_mean = against->shape_mean;
       report.shape_max = against->shape_max;
     }

@@ -21,6 +21,14 @@ double parse_number(const std::string& option, const std::string& text) {
   return value;
 }
 
+render::Background read_background(const std::string& text) {
+  try {
+    return render::parse_background(text);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(error.what()) + ", or transparent");
+  }
+}
+
 /// Whether --camera names a file and not a direction.
 bool is_view_file(const std::string& text) {
   const std::string extension = std::filesystem::path(text).extension().string();
@@ -112,7 +120,7 @@ void ViewOptions::declare_drawing(CLI::App& app) {
   text(app, "--background", "B", "dark (default), light, white, black, #rrggbb, r,g,b or transparent",
        [](const std::string& given) -> Change {
          if (given == "transparent") return [](View& view) { view.transparent = true; };
-         return [background = render::parse_background(given)](View& view) {
+         return [background = read_background(given)](View& view) {
            view.background = background;
            view.transparent = false;
          };

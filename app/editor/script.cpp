@@ -12,6 +12,7 @@
 #include "editor/script_words.h"
 #include "editor/view_words.h"
 #include "editor/word_values.h"
+#include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "model/motion_jobs.h"
 #include "render/offscreen.h"
@@ -74,8 +75,7 @@ class Player {
 
   ScriptResult play() {
     std::ifstream file(options_.file);
-    if (!file || std::filesystem::is_directory(options_.file))
-      throw InputError(options_.file.string(), "", "cannot be read");
+    if (!file || std::filesystem::is_directory(options_.file)) check_readable(options_.file);
     require_room(size_, options_.scale);
     frames(2);
     std::string line;

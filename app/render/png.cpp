@@ -1,12 +1,12 @@
 #include <png.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "io/atomic_file.h"
+#include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "render/image.h"
 #include "render/png_chunks.h"
@@ -27,6 +27,21 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
     rgb.insert(rgb.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(i),
                image.pixels.begin() + static_cast<std::ptrdiff_t>(i) + 3);
   return rgb;
+}
+
+std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
+  const std::string bytes = read_bytes(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Says where a file that is no sound picture ends to be one, or else what the library says.
+[[noreturn]] void refuse(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                         const std::string& reason) {
+  const std::vector<PngChunk> sound = split_png(bytes);
+  if (sound.empty()) throw InputError(path.string(), "", "is no PNG file");
+  if (sound.back().type == "IEND") throw InputError(path.string(), "", reason);
+  throw InputError(path.string(), "byte " + std::to_string(join_png(sound).size()),
+                   "the picture is damaged or cut short here");
 }
 
 png_image header_of(const Image& image, bool opaque) {
@@ -124,22 +139,20 @@ void write_png(const std::filesystem::path& path, const Image& image, const Pict
 }
 
 Image read_png(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = bytes_of(path);
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&header, path.c_str()) == 0)
-    throw InputError(path.string(), "", header.message);
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
+    refuse(path, bytes, header.message);
   header.format = PNG_FORMAT_RGBA;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height));
   if (png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr) == 0)
-    throw InputError(path.string(), "", header.message);
+    refuse(path, bytes, header.message);
   return image;
 }
 
 PictureTexts read_png_texts(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
-                                        std::istreambuf_iterator<char>()};
-  if (!file) throw InputError(path.string(), "", "cannot be read");
+  const std::vector<std::uint8_t> bytes = bytes_of(path);
   if (split_png(bytes).empty()) throw InputError(path.string(), "", "is no PNG file");
   return texts_of_png(bytes);
 }

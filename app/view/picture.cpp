@@ -1,12 +1,11 @@
 #include "view/picture.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "io/mesh_file.h"
 #include "mesh/error.h"
 #include "mesh/topology.h"
 #include "quality/inverted.h"
@@ -51,19 +50,30 @@ void require_sense(const View& view, const Exhibits& exhibits) {
   }
 }
 
-std::vector<double> values_of(const View& view, const TriangleMesh& mesh, const TriangleMesh* against) {
+std::vector<double> values_of(const View& view, const TriangleMesh& mesh, const std::string& file) {
+  try {
+    return measure(view.color, view.energy, mesh.positions, mesh.triangles);
+  } catch (const MeshError& error) {
+    throw MeshError(file + ": " + error.what());
+  }
+}
+
+/// What the colours of mesh i say.
+std::vector<double> values_of(const View& view, const Exhibits& exhibits, std::size_t i) {
+  const TriangleMesh& mesh = *exhibits.meshes[i];
   if (!has_values(view) || mesh.triangles.empty()) return {};
-  std::vector<double> values = measure(view.color, view.energy, mesh.positions, mesh.triangles);
+  std::vector<double> values = values_of(view, mesh, i < view.meshes.size() ? view.meshes[i] : "the mesh");
   if (!view.difference) return values;
-  return change(values, measure(view.color, view.energy, against->positions, against->triangles));
+  return change(values, values_of(view, *exhibits.against, view.against));
 }
 
 std::vector<Prepared> prepare(const View& view, const Exhibits& exhibits) {
   require_sense(view, exhibits);
   std::vector<Prepared> all;
-  for (const TriangleMesh* mesh : exhibits.meshes) {
+  for (std::size_t i = 0; i < exhibits.meshes.size(); ++i) {
+    const TriangleMesh* mesh = exhibits.meshes[i];
     Prepared& made = all.emplace_back();
-    made.values = values_of(view, *mesh, exhibits.against);
+    made.values = values_of(view, exhibits, i);
     if (mesh->triangles.empty()) continue;
     made.faces_inward = faces_inward(mesh->positions, mesh->triangles);
     const Topology topology(mesh->triangles, mesh->vertex_count());
@@ -228,10 +238,7 @@ View read_view(const std::filesystem::path& path) {
       throw InputError(path.string(), "", "carries no view: it was not drawn by isorelax");
     return parse_view(found->second, path.string());
   }
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw InputError(path.string(), "", "cannot be read");
-  return parse_view(text, path.string());
+  return parse_view(read_bytes(path), path.string());
 }
 
 }  // namespace isorelax::view

@@ -204,5 +204,27 @@ TEST(Script, DoesASessionAgainAndTellsWhatDoesNotHold) {
   EXPECT_NE(refused.err.find("line 1"), std::string::npos) << refused.err;
 }
 
+TEST_F(PictureCommands, messages_name_the_file_and_the_reason) {
+  const auto message = [](const std::string& arguments) { return run_program(arguments).err; };
+  const auto says = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  const std::string to = " -o " + path("x.png");
+  says(message("render " + mesh_ + " --camera " + path("none.json") + to),
+       "none.json: cannot be read: No such file or directory");
+  says(message("render " + mesh_ + " --like " + path("none.png") + to),
+       "none.png: cannot be read: No such file or directory");
+  says(message("script " + path("none.script")), "none.script: cannot be read: No such file or directory");
+  says(message("render " + mesh_ + " --background '#12'" + to), "or transparent");
+  const std::string flat = workspace_.write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+  says(message("render " + flat + " --color energy" + to), "flat.off: the mesh has no area");
+  says(message("quality " + flat + " --reference initial"), "flat.off: the mesh has no area");
+  const std::string photo = workspace_.write("photo.jpg", "\xff\xd8");
+  says(message("compare " + draw("whole.png", mesh_) + " " + photo), "photo.jpg: is no PNG picture");
+  const std::string whole = contents(path("whole.png"));
+  const std::string half = workspace_.write("half.png", whole.substr(0, whole.size() / 2));
+  says(message("compare " + half + " " + path("whole.png")), "half.png: byte ");
+}
+
 }  // namespace
 }  // namespace isorelax::test
