@@ -78,7 +78,7 @@ void ViewOptions::declare_colors(CLI::App& app) {
   text(app, "--only-worse-than", "V",
        "Draw only triangles worse than this: angles below V, largest angles and energies above, areas off "
        "the mean "
-       "by more than V times",
+       "by more than V times; with --difference those that got worse by more than V",
        [](const std::string& given) -> Change {
          return
              [limit = parse_number("--only-worse-than", given)](View& view) { view.only_worse_than = limit; };
