@@ -31,6 +31,12 @@ bool JobContext::others_wait() const {
   return !engine_.waiting_.empty() || engine_.cancelled_;
 }
 
+bool JobContext::others_wait(std::chrono::milliseconds while_resting) const {
+  std::unique_lock lock(engine_.mutex_);
+  return engine_.changed_.wait_for(lock, while_resting,
+                                   [&] { return !engine_.waiting_.empty() || engine_.cancelled_; });
+}
+
 Workbench& JobContext::bench() const {
   return engine_.bench_;
 }

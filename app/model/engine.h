@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -36,6 +37,8 @@ class JobContext {
   [[nodiscard]] bool view_is_waiting() const;
   /// Whether another job waits: one that is nice to have should give way.
   [[nodiscard]] bool others_wait() const;
+  /// The same after a while, or as soon as one does.
+  [[nodiscard]] bool others_wait(std::chrono::milliseconds while_resting) const;
   [[nodiscard]] Workbench& bench() const;
 
  private:

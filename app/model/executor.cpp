@@ -261,7 +261,7 @@ void Executor::operator()(SurfaceMeasured& event) {
                   100 * event.deviation.max);
     text += (text.empty() ? "" : " and ") + std::string(away);
   }
-  if (!text.empty())
+  if (!text.empty() && s_.surface_is_news_)
     say(MessageKind::warning,
         text + ". isorelax smooth would have prevented that; here, pin vertices or take a smaller limit.");
   s_.surface = std::move(event);

@@ -269,6 +269,7 @@ void Executor::operator()(RunEnded& event) {
   }
   s_.then_polish_ = false;
   end_run();
+  s_.surface_is_news_ = true;
   measure_surface();
 }
 

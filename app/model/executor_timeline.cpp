@@ -8,6 +8,8 @@ namespace isorelax::model {
 namespace {
 
 constexpr std::size_t kMostBeside = 3;
+/// Triangles up to which the distance from the original is measured wherever one goes.
+constexpr Index kMostMeasuredOnTheWay = 20000;
 constexpr const char* kNoStages = "Steps of a moving surface have no stages.";
 
 MeshStatePtr with_geometry(const MeshStatePtr& state, std::shared_ptr<const Geometry> geometry) {
@@ -116,6 +118,10 @@ void Executor::operator()(Sought& event) {
   if (s_.seeking_) return;
   measure_energy_if_changed();
   ask_about_step();
+  s_.surface_is_news_ = false;
+  s_.measure_surface_later_ = s_.moving() == nullptr && place_shown().not_redone.empty() &&
+                              s_.document->mesh().triangle_count() <= kMostMeasuredOnTheWay &&
+                              (!s_.surface || s_.surface->geometry != s_.current->geometry);
   go_on_when_idle();
 }
 

@@ -240,7 +240,8 @@ Engine::Job run_job(RunRequest request) {
 Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshStatePtr state, Place place) {
   return [document = std::move(document), settings = std::move(settings), state = std::move(state),
           place = std::move(place)](const JobContext& context) {
-    if (context.others_wait()) {
+    // Whoever goes through the timeline does not wait for it at each iteration.
+    if (context.others_wait(std::chrono::milliseconds(50))) {
       context.publish(SurfaceGaveWay{});
       return;
     }

@@ -147,7 +147,8 @@ struct Session {
   std::vector<IterationRow> rows_at_start_;
   unsigned run_iterations_ = 0;
   bool measure_surface_later_ = false;
-  bool then_polish_ = false;  // once the solver has done its steps
+  bool surface_is_news_ = false;  // where a run has ended; elsewhere on the timeline it was told before
+  bool then_polish_ = false;      // once the solver has done its steps
   Cursor cursor_at_start_;
   std::vector<Cursor> taught_;  // where Teach has come to
   unsigned scan_to_ = 0;

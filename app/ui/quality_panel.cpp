@@ -63,9 +63,10 @@ std::array<Figure, 11> figures(const model::Session& session) {
        "%.6g", "", Better::smaller},
       {"Off the original",
        "Largest distance between the surface and that of the original, of the diagonal of its bounding box. "
-       "Measured when a run has ended.",
+       "Of large meshes measured when a run has ended.",
        0, away, "%.3f", " %", is_far ? Better::smaller : Better::none},
-      {"Volume change", "Of the enclosed volume; an open surface has none. Measured when a run has ended.",
+      {"Volume change",
+       "Of the enclosed volume; an open surface has none. Of large meshes measured when a run has ended.",
        known && !session.surface->deviation.has_volume ? nothing : 0, volume, "%.3f", " %", Better::none},
   }};
 }

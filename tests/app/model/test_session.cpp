@@ -133,6 +133,23 @@ TEST_F(SessionTest, TheEndOfARunTellsHowFarTheSurfaceWent) {
   EXPECT_EQ(warnings(), 0) << last_message();
 }
 
+TEST_F(SessionTest, TheDistanceIsMeasuredAnywhereOnTheTimeline) {
+  const std::filesystem::path path = folder / "torus.off";
+  (void)write_mesh(path, generate(ShapeKind::torus, {.triangles = 600, .jitter = 0.3}));
+  do_and_wait(OpenFile{path});
+  run(6);
+  const double end = session.surface->deviation.max;
+  const std::size_t messages = session.messages.size();
+  do_and_wait(Seek{2, {}});
+  ASSERT_EQ(session.surface->geometry, session.current->geometry);
+  EXPECT_GT(session.surface->deviation.max, 0);
+  EXPECT_NE(session.surface->deviation.max, end);
+  do_and_wait(Seek{6, {}});
+  ASSERT_EQ(session.surface->geometry, session.current->geometry);
+  EXPECT_EQ(session.surface->deviation.max, end);
+  EXPECT_EQ(session.messages.size(), messages);
+}
+
 TEST_F(SessionTest, TheDistanceIsMeasuredHoweverMuchElseIsAsked) {
   const std::filesystem::path path = folder / "torus.off";
   (void)write_mesh(path, generate(ShapeKind::torus, {.triangles = 3000, .jitter = 0.3}));
