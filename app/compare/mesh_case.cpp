@@ -147,7 +147,16 @@ Case compare_meshes(const NamedMesh& a, const NamedMesh& b, const MeshLimits& li
 
 void add_pictures(const NamedMesh& a, const NamedMesh& b, const MeshPictures& how, Case& result) {
   view::Studio studio(how.context);
-  const view::View shared = view::resolve(how.view, {{a.mesh, b.mesh}}, view::Arrangement::one_by_one);
+  const bool numbers = how.view.color != view::ColorBy::none && how.view.color != view::ColorBy::classes;
+  view::View wanted = how.view;
+  if (numbers && same_triangles(*a.mesh, *b.mesh)) {
+    // One camera for all three: that of the change, whose legend is the widest.
+    view::View change = how.view;
+    change.difference = true;
+    change.range = {};
+    wanted.camera = view::resolve(change, {{a.mesh, b.mesh}, a.mesh}, view::Arrangement::one_by_one).camera;
+  }
+  const view::View shared = view::resolve(wanted, {{a.mesh, b.mesh}}, view::Arrangement::one_by_one);
   std::vector<render::Image> images;
   for (const NamedMesh& one : {a, b}) {
     view::View own = shared;
@@ -159,7 +168,6 @@ void add_pictures(const NamedMesh& a, const NamedMesh& b, const MeshPictures& ho
         {first ? "A" : "B", render::encode_png(picture.image, view::texts_of(picture.view))});
     images.push_back(picture.image);
   }
-  const bool numbers = shared.color != view::ColorBy::none && shared.color != view::ColorBy::classes;
   if (!same_triangles(*a.mesh, *b.mesh)) {
     const ImageComparison seen = compare_images(images[0], images[1], 0);
     result.pictures.push_back(
