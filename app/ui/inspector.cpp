@@ -56,6 +56,12 @@ void go_to_typed(const Ui& ui) {
 void draw_choice(const Ui& ui) {
   constexpr std::array<std::string_view, 2> kWhat{"Vertex", "Triangle"};
   Typing& typing = ui.state.typing;
+  const model::Session& s = ui.session;
+  if (typing.selected_vertex != s.selected_vertex || typing.selected_triangle != s.selected_triangle) {
+    if (s.selected_triangle || s.selected_vertex) typing.triangle = s.selected_triangle.has_value();
+    typing.selected_vertex = s.selected_vertex;
+    typing.selected_triangle = s.selected_triangle;
+  }
   const float width = ImGui::GetContentRegionAvail().x;
   const int choice = segmented(ui, "inspect-what", kWhat, typing.triangle ? 1 : 0, 0.52F * width);
   if (choice >= 0) typing.triangle = choice == 1;

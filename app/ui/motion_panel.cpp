@@ -211,7 +211,7 @@ void draw_tangent_moves(const Ui& ui, MotionChoices& motion) {
   constexpr const char* kMuTip = "Of tangent moves: weight of areas against angles, 0 to 1.";
   row_label(ui, "Area \xCE\xBC\xE2\x82\x90", kMuTip);
   auto mu = static_cast<float>(motion.mu.value_or(0.5));
-  if (ImGui::SliderFloat("##motion-mu", &mu, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+  if (slider(ui, "motion-mu", mu, 0, 1, "%.2f")) {
     motion.mu = std::round(100.0 * static_cast<double>(mu)) / 100;
     change_motion(ui, motion, "\xCE\xBC\xE2\x82\x90");
   }

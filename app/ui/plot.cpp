@@ -225,7 +225,9 @@ void draw_bars(const Ui& ui, const Bars& bars, float height) {
   frame.y1 = static_cast<double>(std::max<std::size_t>(
       {1, *std::ranges::max_element(bars.now), *std::ranges::max_element(bars.before)}));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (const double t : round_ticks(0, frame.y1, 2)) draw_y_tick(ui, frame, t, short_number(t));
+  std::vector<double> counts = round_ticks(0, frame.y1, 2);
+  if (counts.size() < 2) counts = round_ticks(0, frame.y1, 3);
+  for (const double t : counts) draw_y_tick(ui, frame, t, short_number(t));
   for (const double t : bars.ticks)
     draw_x_tick(ui, frame, t, short_number(t) + (t == bars.ticks.back() ? bars.unit : ""));
   const double bin = (bars.high - bars.low) / static_cast<double>(bars.now.size());

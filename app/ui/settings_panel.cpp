@@ -103,7 +103,7 @@ void draw_mu(const Ui& ui) {
   SmoothingSettings settings = ui.session.smoothing;
   auto mu = static_cast<float>(settings.mu_a);
   row_label(ui, "Area \xCE\xBC\xE2\x82\x90", kTip);
-  if (ImGui::SliderFloat("##mu", &mu, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+  if (slider(ui, "mu", mu, 0, 1, "%.2f")) {
     // The number that is shown is the number that is used.
     settings.mu_a = std::round(100.0 * static_cast<double>(mu)) / 100;
     change(ui, settings, "\xCE\xBC\xE2\x82\x90");
@@ -182,7 +182,7 @@ void draw_features(const Ui& ui) {
   if (settings.features != model::FeatureRule::angle) return;
   row_label(ui, "Crease angle", "Dihedral turn from which an edge is a crease, in degrees.");
   auto angle = static_cast<float>(settings.feature_deg);
-  if (ImGui::SliderFloat("##feature-angle", &angle, 5, 120, "%.0f\xC2\xB0", ImGuiSliderFlags_AlwaysClamp)) {
+  if (slider(ui, "feature-angle", angle, 5, 120, "%.0f\xC2\xB0")) {
     settings.feature_deg = std::round(static_cast<double>(angle));
     change(ui, settings, "Crease angle");
   }

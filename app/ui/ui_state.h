@@ -150,7 +150,8 @@ inline constexpr std::array kPlaySpeeds{1.0F, 4.0F, 12.0F, 30.0F, 120.0F};  ///<
 /// What is being typed into the inspector and the list of breakpoints.
 struct Typing {
   std::string id;
-  bool triangle = false;  ///< the id is that of a triangle
+  bool triangle = false;                                    ///< the id is that of a triangle
+  std::optional<Index> selected_vertex, selected_triangle;  ///< when it was last followed
   std::string predicate;
   bool logs = false;  ///< the predicate tells instead of stopping
   int compare_with = 0;

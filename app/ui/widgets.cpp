@@ -170,6 +170,25 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view keys) {
   ImGui::PopStyleVar();
 }
 
+bool slider(const Ui& ui, std::string_view name, float& value, float low, float high, const char* format) {
+  const std::string id = "##" + std::string(name);
+  const float width = ImGui::GetContentRegionAvail().x - ui.px(44);
+  ImGui::SetNextItemWidth(width);
+  // While a number is typed it stands in the slider itself.
+  const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+  if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(0, 0, 0, 0));
+  const bool changed =
+      ImGui::SliderFloat(id.c_str(), &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+  if (!is_typed) ImGui::PopStyleColor();
+  const std::string text = number_text(format, value);
+  const ImVec2 end = ImGui::GetItemRectMax();
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  ImGui::GetWindowDrawList()->AddText(
+      {std::floor(end.x + ui.px(44) - size.x), std::floor(end.y - 0.5F * (ui.px(size::kControl) + size.y))},
+      ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  return changed;
+}
+
 int menu(const Ui& ui, std::string_view name, std::span<const MenuEntry> entries, int chosen) {
   int result = -1;
   const std::string id = "##" + std::string(name);

@@ -70,6 +70,9 @@ void heading(const Ui& ui, std::string_view text);
 void row_label(const Ui& ui, std::string_view label, std::string_view tip);
 /// Explains the last item after the pointer rested on it; `keys` may be empty.
 void tooltip(const Ui& ui, std::string_view text, std::string_view keys = {});
+/// A slider over the rest of the row, its number beside it, where the handle does not cover it. True when
+/// changed.
+bool slider(const Ui& ui, std::string_view name, float& value, float low, float high, const char* format);
 /// A combo box over labels; the new choice, or -1.
 int combo(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen);
 struct MenuEntry {

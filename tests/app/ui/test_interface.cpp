@@ -373,6 +373,19 @@ TEST_F(InterfaceTest, ASmallWindowHasMenusForWhatDoesNotFit) {
   EXPECT_TRUE(shows("compare-with"));
 }
 
+TEST_F(InterfaceTest, TheInspectorSaysWhatIsSelected) {
+  open();
+  interface.state().tab = SideTab::inspect;
+  model::execute(session, model::SelectTriangle{3});
+  settle_and_finish();
+  EXPECT_TRUE(interface.state().typing.triangle);
+  click("inspect-what/Vertex");
+  EXPECT_FALSE(interface.state().typing.triangle) << "the number of a vertex can be typed";
+  model::execute(session, model::SelectTriangle{4});
+  settle_and_finish();
+  EXPECT_TRUE(interface.state().typing.triangle);
+}
+
 TEST_F(InterfaceTest, NothingOverlapsInTheSmallestWindow) {
   display = {960, 540};
   open();
