@@ -256,7 +256,7 @@ void draw_compare_bar(const Ui& ui, const Rect& rect) {
   if (!shows_bar(ui.state, rect.width(), ui.scale)) return;
   ImGui::SetNextWindowPos({rect.low.x + ui.px(14), rect.low.y + ui.px(kBarEdge)});
   ImGui::SetNextWindowSize({0, 0});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 200)));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, to_vec4(IM_COL32(34, 37, 43, 255)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(kBarPadX), ui.px(kBarPadY)});
   ImGui::Begin("compare-bar", nullptr,

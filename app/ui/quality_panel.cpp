@@ -99,7 +99,7 @@ Rect draw_verdict(const Ui& ui, const Rect& number, Verdict verdict) {
 void draw_figure(const Ui& ui, const Figure& f) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  text_in(ui.fonts.text, color::kTextDim, f.label);
+  text_in(ui.fonts.text, color::kTextDim, fitted(*ui.fonts.text, f.label, ImGui::GetContentRegionAvail().x));
   tooltip(ui, f.tip);
   const auto text = [&](double value) {
     return number_text(f.format, value) + (std::isfinite(value) ? std::string(f.unit) : "");

@@ -105,6 +105,11 @@ int segmented(const Ui& ui, std::string_view name, std::span<const std::string_v
               float width) {
   int result = -1;
   const float each = std::floor(width / static_cast<float>(labels.size()));
+  if (std::ranges::any_of(
+          labels, [&](std::string_view label) { return text_width(*ImGui::GetFont(), label) > each; })) {
+    ImGui::SetNextItemWidth(width);
+    return combo(ui, name, labels, chosen);
+  }
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::GetWindowDrawList()->AddRectFilled(
       low, {low.x + each * static_cast<float>(labels.size()), low.y + ui.px(size::kControl)},
@@ -196,8 +201,9 @@ int menu(const Ui& ui, std::string_view name, std::span<const MenuEntry> entries
   const float width = ImGui::CalcItemWidth();
   const float height = ImGui::GetFrameHeight();
   const float room = width - height - 2 * ImGui::GetStyle().FramePadding.x;
+  const bool known = chosen >= 0 && static_cast<std::size_t>(chosen) < entries.size();
   const std::string preview =
-      fitted(*ImGui::GetFont(), entries[static_cast<std::size_t>(chosen)].label, room);
+      known ? fitted(*ImGui::GetFont(), entries[static_cast<std::size_t>(chosen)].label, room) : "";
   if (ImGui::BeginCombo(id.c_str(), preview.c_str())) {
     mark_area(ui, name, {low, {low.x + width, low.y + height}});
     for (std::size_t k = 0; k < entries.size(); ++k) {

@@ -55,6 +55,7 @@ bool button(const Ui& ui, std::string_view name, std::string_view label, const B
 float button_width(const Ui& ui, std::string_view label, Icon icon);
 
 /// Choices side by side, one of them pressed: one stop for Tab, left and right choose. The new choice, or -1.
+/// Where a label would be cut, a combo box.
 int segmented(const Ui& ui, std::string_view name, std::span<const std::string_view> labels, int chosen,
               float width);
 

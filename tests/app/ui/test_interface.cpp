@@ -373,6 +373,16 @@ TEST_F(InterfaceTest, ASmallWindowHasMenusForWhatDoesNotFit) {
   EXPECT_TRUE(shows("compare-with"));
 }
 
+TEST_F(InterfaceTest, ChoicesWhoseLabelsDoNotFitAreAMenu) {
+  display = {800, 600};
+  open();
+  EXPECT_TRUE(shows("boundary/Slide"));
+  EXPECT_FALSE(shows("reach/Near"));
+  click("reach");
+  click("reach/Near");
+  EXPECT_EQ(session.smoothing.reach, model::Reach::nearest);
+}
+
 TEST_F(InterfaceTest, TheInspectorSaysWhatIsSelected) {
   open();
   interface.state().tab = SideTab::inspect;
