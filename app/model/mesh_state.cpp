@@ -62,7 +62,8 @@ std::shared_ptr<const Geometry> measure_geometry(const Document& document, std::
   const auto& triangles = document.mesh().triangles;
   auto geometry = std::make_shared<Geometry>();
   geometry->positions = std::move(positions);
-  const std::span<const Vec3> x = geometry->positions;
+  const std::vector<Vec3> resized = resized_if_extreme(geometry->positions);
+  const std::span<const Vec3> x = resized.empty() ? geometry->positions : resized;
   geometry->min_angle_values.resize(triangles.size());
   geometry->max_angle_values.resize(triangles.size());
   geometry->area_values.resize(triangles.size());

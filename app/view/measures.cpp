@@ -39,6 +39,10 @@ ReferenceMesh reference_of(const std::string& reference, std::span<const Vec3> p
 
 std::vector<double> energies(const EnergyTerms& terms, std::span<const Vec3> positions,
                              std::span<const Triangle> triangles) {
+  // Against triangles of its own mean area the energy has no unit.
+  std::vector<Vec3> resized;
+  if (terms.reference == "equilateral") resized = resized_if_extreme(positions);
+  if (!resized.empty()) positions = resized;
   const ReferenceMesh reference = reference_of(terms.reference, positions, triangles);
   std::vector<double> values(triangles.size(), std::numeric_limits<double>::infinity());
   parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {

@@ -73,12 +73,6 @@ void Tally::add(const Tally& other) {
 }
 
 /// Largest number in the coordinates: what decides whether their squares and products stay in range.
-double largest_coordinate(std::span<const Vec3> positions) {
-  double largest = 0;
-  for (const Vec3& p : positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  return largest;
-}
-
 QualityReport measure(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                       const Topology& topology, unsigned threads) {
   std::vector<double> areas(triangles.size());
@@ -126,18 +120,9 @@ QualityReport measure(std::span<const Vec3> positions, std::span<const Triangle>
 QualityReport measure_quality(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                               const Topology& topology, unsigned threads) {
   if (triangles.empty()) throw MeshError("the mesh has no triangles to measure");
-  // Every number in the report is free of units. Where fourth powers of lengths would leave the range of
-  // double, the mesh is measured at another size; a power of two changes no digit.
-  const double largest = largest_coordinate(positions);
-  if (largest == 0 || (largest > 1e-60 && largest < 1e60)) {
-    return measure(positions, triangles, topology, threads);
-  }
-  const int exponent = -std::ilogb(largest);
-  std::vector<Vec3> scaled(positions.begin(), positions.end());
-  for (Vec3& p : scaled) {
-    for (double& x : p) x = std::scalbn(x, exponent);
-  }
-  return measure(scaled, triangles, topology, threads);
+  // Every number in the report is free of units.
+  const std::vector<Vec3> resized = resized_if_extreme(positions);
+  return measure(resized.empty() ? positions : resized, triangles, topology, threads);
 }
 
 QualityReport measure_quality(const TriangleMesh& mesh, unsigned threads) {

@@ -97,8 +97,23 @@ bool larger_is_worse(FaceMetric metric) {
          metric != FaceMetric::scaled_jacobian;
 }
 
+std::vector<Vec3> resized_if_extreme(std::span<const Vec3> positions) {
+  double largest = 0;
+  for (const Vec3& p : positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  if (largest == 0 || (largest > 1e-60 && largest < 1e60)) return {};
+  const int exponent = -std::ilogb(largest);
+  std::vector<Vec3> resized(positions.begin(), positions.end());
+  for (Vec3& p : resized) {
+    for (double& x : p) x = std::scalbn(x, exponent);
+  }
+  return resized;
+}
+
 std::vector<double> face_metric(FaceMetric metric, std::span<const Vec3> positions,
                                 std::span<const Triangle> triangles, unsigned threads) {
+  std::vector<Vec3> resized;
+  if (metric != FaceMetric::area) resized = resized_if_extreme(positions);
+  if (!resized.empty()) positions = resized;
   std::vector<double> values(triangles.size());
   std::vector<double> block_sums(block_count(triangles.size()), 0);
   parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {

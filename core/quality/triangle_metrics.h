@@ -58,6 +58,10 @@ enum class FaceMetric {
 /// Whether a triangle with a larger value is the worse one (max angle, shape, aspect ratio; areas: larger).
 [[nodiscard]] bool larger_is_worse(FaceMetric metric);
 
+/// Where fourth powers of lengths would leave the range of double, the positions at another size: a power of
+/// two changes no digit of what is free of units. Else nothing.
+[[nodiscard]] std::vector<Vec3> resized_if_extreme(std::span<const Vec3> positions);
+
 /// The metric of every triangle, in triangle order; infinite where the metric is. Parallel, the same for any
 /// number of threads (0: all). Precondition: indices below positions.size().
 [[nodiscard]] std::vector<double> face_metric(FaceMetric metric, std::span<const Vec3> positions,

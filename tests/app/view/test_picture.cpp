@@ -127,6 +127,19 @@ TEST_F(PictureTest, a_planar_mesh_looks_the_same_whichever_way_all_its_triangles
   }
 }
 
+TEST_F(PictureTest, meshes_of_extreme_size_have_the_colours_of_ordinary_ones) {
+  View view = small_view();
+  for (const ColorBy color : {ColorBy::min_angle, ColorBy::area, ColorBy::energy}) {
+    view.color = color;
+    const auto wanted = measure(color, view.energy, torus_.positions, torus_.triangles);
+    for (const int exponent : {500, -500}) {
+      TriangleMesh resized = torus_;
+      for (Vec3& p : resized.positions) p *= std::ldexp(1, exponent);
+      EXPECT_EQ(measure(color, view.energy, resized.positions, resized.triangles), wanted) << exponent;
+    }
+  }
+}
+
 TEST_F(PictureTest, values_outside_the_range_are_grey) {
   View view = small_view();
   view.range = {RangeRule::ends, {50, 60}};
