@@ -17,7 +17,8 @@ enum class ColorNumbers : std::uint8_t { fractions, bytes_or_fractions };
 /// fractions, with or without opacity.
 class ColorColumn {
  public:
-  explicit ColorColumn(ColorNumbers numbers) : whole_(numbers == ColorNumbers::bytes_or_fractions) {}
+  explicit ColorColumn(ColorNumbers numbers)
+      : numbers_(numbers), whole_(numbers == ColorNumbers::bytes_or_fractions) {}
 
   /// Takes the next `width` (3 or 4) words of the current line as the colour of element `index`. Indices come
   /// in ascending order; elements passed over have no colour. Throws InputError for a word that is no number.
@@ -26,7 +27,8 @@ class ColorColumn {
   [[nodiscard]] bool empty() const { return rows_.empty(); }
 
   /// Appends the attribute "color" of `count` elements, uint8 when every number was whole and at most 255,
-  /// and says in a message how many elements had no colour and are white now. `elements` is their noun.
+  /// and says in messages how many elements had no colour and are white now, and how many colours of bytes
+  /// among fractions are fractions now. `elements` is their noun.
   void finish(std::size_t count, const char* elements, std::vector<Attribute>& attributes,
               std::vector<std::string>& messages) const;
 
@@ -34,7 +36,9 @@ class ColorColumn {
   struct Row {
     std::array<double, 4> value{};
     unsigned width = 0;
+    bool means_bytes = false;  ///< even among fractions: whole, and beyond 1
   };
+  ColorNumbers numbers_;
   std::vector<Row> rows_;
   /// Whether all numbers so far may be bytes.
   bool whole_;

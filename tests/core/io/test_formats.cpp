@@ -64,6 +64,15 @@ TEST(Off, ColoursAfterThePlainHeaderAreKeptAndMissingOnesReported) {
   EXPECT_TRUE(mentions(file.messages, "1 faces without an index"));
 }
 
+TEST(Off, ColoursInBytesAmongFractionsBecomeFractions) {
+  const MeshFile file =
+      read_off("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.5 0.25 1\n3 0 1 2 255 0 51\n3 0 1 2 1 0 0\n", "t");
+  ASSERT_EQ(file.mesh.attributes.face.size(), 1U);
+  EXPECT_EQ(file.mesh.attributes.face[0].values, (std::vector<double>{0.5, 0.25, 1, 1, 0, 0.2, 1, 0, 0}));
+  EXPECT_TRUE(
+      mentions(file.messages, "colours of 1 of 3 faces given in bytes among fractions made fractions"));
+}
+
 TEST(Off, WhatFollowsTheLastFaceIsReported) {
   const MeshFile file = read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\nrest 0 1 2\n", "mesh.off");
   EXPECT_TRUE(mentions(file.messages, "from line 8 on"));
