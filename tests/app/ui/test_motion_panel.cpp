@@ -125,6 +125,11 @@ TEST_F(MotionPanelTest, EveryFieldAndEveryOptionCanBeChosen) {
   EXPECT_FALSE(session.motion.tolerance) << "motion along normals takes fixed steps";
   EXPECT_FALSE(shows("step-error/1e-6"));
   click("motion-reference");
+  EXPECT_FALSE(shows("motion-reference/Equilateral, edge length")) << "references have the mesh's area";
+  press(Key::escape);
+  click("preset");
+  click("preset/Paper's");
+  click("motion-reference");
   click("motion-reference/Equilateral, edge length");
   EXPECT_EQ(session.motion.reference, "equilateral:0.01");
   EXPECT_TRUE(shows("motion-edge"));
