@@ -143,11 +143,11 @@ TEST(Untangle, TurnsTrianglesOfASphereAndStaysOnIt) {
 }
 
 TEST(Untangle, WhatGetsOnlyLessTangledGetsNoWorse) {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-    TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 500});
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = seed, .vertices = 2000});
     Random random(seed);
     for (Vec3& p : mesh.positions)
-      if (random.uniform() < 0.05)
+      if (random.uniform() < 0.1)
         p = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
     const double before = measure_quality(mesh).min_angle_deg;
     const UntangleResult result = untangle_input(mesh.positions, mesh.triangles, {});
