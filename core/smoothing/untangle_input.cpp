@@ -105,7 +105,7 @@ UntangleResult untangle_surface(std::span<Vec3> positions, std::span<const Trian
     if (flat.touched[v] != 0) movable[v] = 0;
   hold_features(movable, positions, triangles, topology, options, left);
   UntangleResult result = untangle(positions, triangles, topology, movable, options.threads);
-  const bool few = kOnePerTriangles * left.size() < triangles.size();
+  const bool few = kOnePerTriangles * inverted.size() < triangles.size();
   if (few && !result.moved.empty())
     take_back_far(positions, start, triangles, topology, result, options.threads);
   // What only gets less tangled is not to get worse by it.
