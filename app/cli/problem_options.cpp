@@ -73,7 +73,9 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
   app.add_option(
          "--boundary", spec.boundary,
          "fixed (default); slide: along the border as it was, corners stay; or free: in the tangent plane, "
-         "corners stay and the outline goes no farther than an edge length or --max-deviation")
+         "corners stay and what the mesh covers stays within a mean edge length, or --max-deviation, of what "
+         "it "
+         "covered, either way: along the outline it may go farther")
       ->type_name("RULE");
   app.add_option(
          "--boundary-corner", spec.boundary_corner_deg,
