@@ -164,9 +164,12 @@ class SmoothCommand : public Command {
                          : ""));
     console.message("stopped after " + std::to_string(outcome.run.iterations) +
                     " iterations: " + to_string(outcome.run.stopped, watch_.broken_by()));
+    // That it ends by moving nothing is how it always does.
     if (outcome.polish)
-      console.message("polished in " + std::to_string(outcome.polish->iterations) +
-                      " more: " + to_string(outcome.polish->stopped, watch_.broken_by()));
+      console.message("polished in " + std::to_string(outcome.polish->iterations) + " more" +
+                      (outcome.polish->stopped == StopReason::movement
+                           ? ""
+                           : ": " + to_string(outcome.polish->stopped, watch_.broken_by())));
     return kDone;
   }
 
