@@ -18,10 +18,6 @@ std::string place(const Vec3& p) {
   return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")";
 }
 
-bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.positions.size() == b.positions.size() && a.triangles == b.triangles;
-}
-
 void add_quality(const TriangleMesh& a, const TriangleMesh& b, Case& result) {
   const QualityReport x = measure_quality(a);
   const QualityReport y = measure_quality(b);

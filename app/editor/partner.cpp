@@ -7,9 +7,8 @@
 namespace isorelax::editor {
 namespace {
 
-bool same_triangles(const model::DocumentPtr& a, const model::DocumentPtr& b) {
-  return a && b && a->mesh().vertex_count() == b->mesh().vertex_count() &&
-         a->mesh().triangles == b->mesh().triangles;
+bool fits(const model::DocumentPtr& file, const model::DocumentPtr& document) {
+  return file && document && same_triangles(file->mesh(), document->mesh());
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ std::optional<model::Message> Partner::take_over(ui::Comparison& comparison) {
   } catch (const Error& error) {
     return model::Message{model::MessageKind::error, error.what(), model::Topic::comparison};
   }
-  file_fits_ = same_triangles(file_.document, document_);
+  file_fits_ = fits(file_.document, document_);
   comparison.file = file_.document->path.filename().string();
   comparison.with = ui::CompareWith::file;
   return model::Message{model::MessageKind::info, "Read " + comparison.file + " to compare with",
@@ -48,7 +47,7 @@ std::optional<model::Message> Partner::take_over(ui::Comparison& comparison) {
 void Partner::follow(const model::Session& session, ui::Comparison& comparison) {
   if (document_ != session.document) {
     document_ = session.document;
-    file_fits_ = same_triangles(file_.document, document_);
+    file_fits_ = fits(file_.document, document_);
     remembered_.reset();
     comparison.remembers = false;
   }

@@ -40,10 +40,7 @@ void require_sense(const View& view, const Exhibits& exhibits) {
         "differences and the filter of worse triangles need colours by angle, max-angle, area or energy");
   if (!needs_start) return;
   for (std::size_t i = 0; i < exhibits.meshes.size(); ++i) {
-    const TriangleMesh& mesh = *exhibits.meshes[i];
-    if (mesh.triangles == exhibits.against->triangles &&
-        mesh.positions.size() == exhibits.against->positions.size())
-      continue;
+    if (same_triangles(*exhibits.meshes[i], *exhibits.against)) continue;
     const std::string against = view.against.empty() ? "the mesh" : view.against;
     throw MeshError((i < view.meshes.size() ? view.meshes[i] : "a mesh") +
                     ": has other vertices or triangles than " + against + " that it is shown against");

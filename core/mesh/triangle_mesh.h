@@ -46,6 +46,11 @@ struct TriangleMesh {
   [[nodiscard]] Index triangle_count() const { return static_cast<Index>(triangles.size()); }
 };
 
+/// Whether two meshes can be compared vertex by vertex.
+inline bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.positions.size() == b.positions.size() && a.triangles == b.triangles;
+}
+
 /// Normal of triangle (a, b, c) with the length of twice its area.
 inline Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);

@@ -44,13 +44,13 @@ BalanceReport VolumeBalance::balance(const FlowMap& map, std::span<const Materia
     }
   }
   for (std::size_t v = 0; v < moves_.size(); ++v) {
-    const double norm = normals_[v].norm();
-    const Vec3 normal = norm > 0 ? Vec3(normals_[v] / norm) : Vec3::Zero();
-    const double most = kMostOfEdge * lengths_[v];
     if (held[v] != 0) {
       moves_[v].setZero();
       continue;
     }
+    const double norm = normals_[v].norm();
+    const Vec3 normal = norm > 0 ? Vec3(normals_[v] / norm) : Vec3::Zero();
+    const double most = kMostOfEdge * lengths_[v];
     moves_[v] = std::clamp(moves_[v].dot(normal), -most, most) * normal;
   }
 

@@ -72,7 +72,6 @@ void Tally::add(const Tally& other) {
   degenerate += other.degenerate;
 }
 
-/// Largest number in the coordinates: what decides whether their squares and products stay in range.
 QualityReport measure(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                       const Topology& topology, unsigned threads) {
   std::vector<double> areas(triangles.size());

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "smoothing/group_climb.h"
@@ -39,7 +41,6 @@ class RaiseWorst : public PolishGoalSweeps {
 
   bool sweep(PolishState& state) override {
     if (!goal_) begin(state);
-    const std::vector<Vec3> start = state.positions();
     while (round_ < kWorstRounds.size()) {
       if (done_ == round().most_steps) {
         begin_round(round_ + 1);
@@ -49,7 +50,6 @@ class RaiseWorst : public PolishGoalSweeps {
         ++done_;
         return true;
       }
-      state.start(start);
     }
     return false;
   }
@@ -91,12 +91,15 @@ class RaiseWorst : public PolishGoalSweeps {
   bool sweep_singles(PolishState& state) {
     worst_ = state.worst();
     const AngleRange before = worst_;
+    const std::vector<Vec3> start = state.positions();
     const double merit_before = merit(state);
     double largest = 0;
     for (const Index v : vertices_in_order(state)) largest = std::max(largest, visit(state, v));
     worst_ = state.worst();
     if (mean_ - state.mean() > allowed_loss()) {
       // Back to where the step began, and on with fewer triangles.
+      state.start(start);
+      worst_ = before;
       window_ /= 2;
       if (window_ < kLeastWindow) end_round();
       return false;
@@ -177,9 +180,9 @@ class RaiseWorst : public PolishGoalSweeps {
     const Vec3 start = state.positions()[v];
     Vec3 at = start;
     // What a blunt minimum asks for may be too bad for the worst triangle: then a sharper one decides.
-    for (std::size_t s = stage_; s < kWorstRounds.at(round_).sharpness.size() && at == start; ++s) {
+    for (std::size_t s = stage_; s < kSharpness.size() && at == start; ++s) {
       for (unsigned i = 0; i < kStepsPerVisit; ++i)
-        if (!climb(state, ring, v, kWorstRounds.at(round_).sharpness[s], at)) break;
+        if (!climb(state, ring, v, kSharpness[s], at)) break;
     }
     if (at != start) return state.move(v, at);
     state.note_stuck(v);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "mesh/disjoint_sets.h"
+#include "quality/inverted.h"
 #include "smoothing/untangle.h"
 
 namespace isorelax {
@@ -35,23 +36,21 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> x, std::span<const Triangle
   return normals;
 }
 
-/// Triangles without a plane go with a neighbour: where all around lies in one plane, so do they.
+/// A triangle without area lies in the plane of any triangle beside it: it goes with the first.
 std::map<Index, FlatFace> flat_faces(std::span<const Triangle> triangles, const Topology& topology,
                                      std::span<const Vec3> normals) {
   DisjointSets sets(triangles.size());
-  const auto join = [&](bool with_plane) {
-    for (Corner c = 0; c < 3 * triangles.size(); ++c) {
-      const Corner other = topology.opposite(c);
-      if (other == kNone) continue;
-      const Vec3 &a = normals[c / 3], &b = normals[other / 3];
-      const bool have_plane = !a.isZero(0) && !b.isZero(0);
-      if (have_plane != with_plane) continue;
-      const bool is_alone = a.isZero(0) && sets.find(c / 3) == c / 3;
-      if (with_plane ? a.cross(b).norm() <= kSamePlane : is_alone) sets.join(c / 3, other / 3);
-    }
-  };
-  join(true);
-  join(false);
+  std::vector<std::uint8_t> is_placed(triangles.size(), 0);
+  for (Corner c = 0; c < 3 * triangles.size(); ++c) {
+    const Corner other = topology.opposite(c);
+    if (other == kNone) continue;
+    const Index t = c / 3, beside = other / 3;
+    if (normals[beside].isZero(0)) continue;
+    if (normals[t].isZero(0) ? is_placed[t] != 0 : normals[t].cross(normals[beside]).norm() > kSamePlane)
+      continue;
+    is_placed[t] = 1;
+    sets.join(t, beside);
+  }
   std::map<Index, FlatFace> faces;
   for (Index t = 0; t < triangles.size(); ++t) faces[sets.find(t)].triangles.push_back(triangles[t]);
   std::erase_if(faces, [](const auto& face) { return face.second.triangles.size() < kLeastInFace; });
@@ -85,7 +84,10 @@ FlatUntangling untangle_flat_faces(std::span<Vec3> positions, std::span<const Tr
       inside.push_back(movable[v] != 0 && count[v] == topology.corners_of(v).size() ? 1 : 0);
     }
     const Topology own(face.triangles, static_cast<Index>(x.size()));
-    const UntangleResult untangled = untangle(x, face.triangles, own, inside, threads);
+    // Edges that hardly turn may lead around a curved face all the same.
+    const bool is_flat = plane_normal(x, face.triangles, own, threads).has_value();
+    const UntangleResult untangled =
+        is_flat ? untangle(x, face.triangles, own, inside, threads) : UntangleResult{};
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Index v = face.vertices[i];
       number[v] = kNone;

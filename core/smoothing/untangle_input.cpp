@@ -3,7 +3,7 @@
 #include "mesh/disjoint_sets.h"
 #include "mesh/error.h"
 #include "quality/inverted.h"
-#include "quality/triangle_metrics.h"
+#include "quality/report.h"
 #include "smoothing/orientation_field.h"
 #include "smoothing/problem.h"
 #include "smoothing/untangle_flat.h"
@@ -85,13 +85,6 @@ void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<con
   result = {result.before, result.before, {}};
 }
 
-double smallest_angle(std::span<const Vec3> x, std::span<const Triangle> triangles) {
-  double smallest = 180;
-  for (const auto& [a, b, c] : triangles)
-    smallest = std::min(smallest, measure_triangle(x[a], x[b], x[c]).min_angle_deg);
-  return smallest;
-}
-
 /// Flat faces first, each in its own plane: their rims are known then, and hold.
 UntangleResult untangle_surface(std::span<Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const ProblemOptions& options,
@@ -109,13 +102,15 @@ UntangleResult untangle_surface(std::span<Vec3> positions, std::span<const Trian
   if (few && !result.moved.empty())
     take_back_far(positions, start, triangles, topology, result, options.threads);
   // What only gets less tangled is not to get worse by it.
-  if (result.after > 0 && smallest_angle(positions, triangles) < smallest_angle(start, triangles)) {
+  const auto smallest_angle = [&](std::span<const Vec3> x) {
+    return measure_quality(x, triangles, topology, options.threads).min_angle_deg;
+  };
+  if (result.after > 0 && smallest_angle(positions) < smallest_angle(start)) {
     std::copy(start.begin(), start.end(), positions.begin());
     result = {result.before, result.before, {}};
   }
   if (!flat.moved) return result;
   result.before = inverted.size();
-  result.after = inverted_triangles(positions, triangles, topology, options.threads).size();
   result.moved.clear();
   for (Index v = 0; v < positions.size(); ++v)
     if (positions[v] != input[v]) result.moved.push_back(v);
