@@ -45,7 +45,8 @@ class InterruptWatch {
 
 constexpr const char* kAdvectNotes =
     "A mesh is carried by a motion; its connectivity never changes. DIR gets the start, every N-th state,\n"
-    "an index for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a step:\n"
+    "an index for ParaView (states.ply.series; with --vtk also states.pvd) and log.json with one entry a "
+    "step:\n"
     "angles, areas, volume, folded edges, and the error where it is known: of spheres the distance of\n"
     "vertices from the exact one after whole periods or at constant speed; in rigid and shear motion, that\n"
     "of vertices without redistribution from their exact places, of others from where the start's points\n"
