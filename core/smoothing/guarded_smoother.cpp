@@ -111,7 +111,7 @@ void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord&
 /// and one of its vertices moves.
 void GuardedSmoother::guard_energy(StepRecord& record) {
   const unsigned local = cuts_all_alike() ? kAlikeRounds : 0;
-  for (unsigned round = 0; !(record.after.energy <= record.before.energy); ++round) {
+  for (unsigned round = 0; !(record.after.movable_energy <= record.before.movable_energy); ++round) {
     const double way = round < local ? way_downhill(record) : 0;
     if (way == 0) round = std::max(round, local);
     ++record.energy_passes;
@@ -143,7 +143,7 @@ double GuardedSmoother::way_downhill(const StepRecord& record) const {
   for (Index v = 0; v < problem_.vertex_count(); ++v)
     slope += record.alpha[v] * record.gradient[v].dot(record.displacement[v]);
   if (!(slope < 0)) return 0;
-  const double rise = record.after.energy - record.before.energy;
+  const double rise = record.after.movable_energy - record.before.movable_energy;
   const double least = 0.5 * slope / (slope - rise);
   return least > kLeastWay ? std::min(least, kLongestWay) : kLeastWay;
 }

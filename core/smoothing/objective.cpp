@@ -120,9 +120,15 @@ Objective::Objective(const SmoothingProblem& problem)
       shape_(problem.triangle_count()),
       area_(problem.triangle_count()),
       powered_(problem.triangle_count()),
+      movable_(problem.triangle_count()),
       partials_(block_count(problem.triangle_count())) {
   if (problem.reference.is_uniform())
     uniform_ = ReferenceBatch::load(problem.reference, BatchIds::of_range(0, 1));
+  for (Index t = 0; t < problem.triangle_count(); ++t) {
+    const auto& corners = problem.triangles[t];
+    const auto moves = [&](Index v) { return problem.mobility[v] != Mobility::none; };
+    movable_[t] = std::any_of(corners.begin(), corners.end(), moves) ? 1 : 0;
+  }
 }
 
 void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids) {
@@ -160,14 +166,18 @@ void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& 
 void Objective::sum_block(std::size_t block) {
   const std::size_t end = std::min<std::size_t>(problem_->triangle_count(), (block + 1) * kBlockSize);
   StepTotals sum;
-  double worst = 0;
+  double worst = 0, worst_movable = 0;
   for (std::size_t t = block * kBlockSize; t < end; ++t) {
     sum.energy += powered_[t];
     sum.shape += shape_[t];
     sum.area += area_[t];
-    worst = std::max(worst, problem_->weights.shape * shape_[t] + problem_->weights.area * area_[t]);
+    const double one = energy(static_cast<Index>(t));
+    worst = std::max(worst, one);
+    sum.movable_energy += movable_[t] != 0 ? powered_[t] : 0;
+    worst_movable = std::max(worst_movable, movable_[t] != 0 ? one : 0);
   }
   sum.worst_energy = worst;
+  sum.worst_movable_energy = worst_movable;
   partials_[block] = sum;
 }
 
@@ -178,6 +188,8 @@ void Objective::sum_blocks() {
     totals_.shape += partial.shape;
     totals_.area += partial.area;
     totals_.worst_energy = std::max(totals_.worst_energy, partial.worst_energy);
+    totals_.movable_energy += partial.movable_energy;
+    totals_.worst_movable_energy = std::max(totals_.worst_movable_energy, partial.worst_movable_energy);
   }
 }
 

@@ -23,7 +23,7 @@ double energy_scale(const SmoothingProblem& problem, double energy) {
 /// What the norm of the gradient is measured against: the first one, but no more than what vertices have
 /// whose triangles all change by their energies within an edge length. Slivers make the first one huge.
 double gradient_scale_of(const SmoothingProblem& problem, const StepTotals& first) {
-  const double energy_of_edge = energy_scale(problem, first.energy) / problem.mean_edge_length;
+  const double energy_of_edge = energy_scale(problem, first.movable_energy) / problem.mean_edge_length;
   return std::min(first.gradient_norm, energy_of_edge / std::sqrt(problem.vertex_count()));
 }
 
@@ -118,8 +118,8 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
     }
     result.after = record.after;
     result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
-    result.energy_change =
-        (record.before.energy - record.after.energy) / energy_scale(problem, record.before.energy);
+    result.energy_change = (record.before.movable_energy - record.after.movable_energy) /
+                           energy_scale(problem, record.before.movable_energy);
     idle_steps = result.energy_change <= options.tolerance ? idle_steps + 1 : 0;
     result.relative_move = record.largest_move / problem.mean_edge_length;
     if (observer && !observer(result.iterations, record, positions)) {

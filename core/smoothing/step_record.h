@@ -39,10 +39,13 @@ inline constexpr std::size_t kStepKinds = 10;
 
 /// Sums over the mesh at one set of positions.
 struct StepTotals {
-  double energy = 0;         ///< sum of E^exponent over the treated triangles: what is minimised
-  double shape = 0;          ///< sum of K
-  double area = 0;           ///< sum of S
-  double worst_energy = 0;   ///< largest E
+  double energy = 0;        ///< sum of E^exponent over the treated triangles: what is minimised
+  double shape = 0;         ///< sum of K
+  double area = 0;          ///< sum of S
+  double worst_energy = 0;  ///< largest E
+  /// The same of those triangles alone that have a vertex that may move: what solvers compare. High powers of
+  /// a sliver that nothing can be done about leave nothing of the others in the sum of all.
+  double movable_energy = 0, worst_movable_energy = 0;
   double gradient_norm = 0;  ///< 2-norm of the gradient in the free tangent coordinates; only in `before`
 };
 

@@ -178,5 +178,31 @@ TEST(Solvers, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
+// In the sum of all powers nothing is left of the others beside it.
+TEST(Solvers, ASliverThatNothingCanBeDoneAboutChangesNothingForTheOthers) {
+  TriangleMesh alone = generate(ShapeKind::random_square, {.seed = 6, .triangles = 200});
+  TriangleMesh beside = alone;
+  const Topology topology(alone.triangles, alone.vertex_count());
+  Corner edge = 0;
+  while (!topology.is_boundary_edge(edge)) ++edge;
+  const Triangle& t = alone.triangles[edge / 3];
+  const Index a = t[next(edge % 3)], b = t[previous(edge % 3)];
+  const Vec3 side = alone.positions[b] - alone.positions[a];
+  beside.positions.emplace_back(0.5 * (alone.positions[a] + alone.positions[b]) +
+                                1e-8 * Vec3(side.y(), -side.x(), 0));
+  beside.triangles.push_back({b, a, beside.vertex_count() - 1});
+  ProblemOptions options;
+  options.exponent = 48;
+  const auto stopped = [&](TriangleMesh& mesh) {
+    return smooth(mesh, Solver::automatic, options, {.iterations = 400, .tolerance = 1e-6}).stopped;
+  };
+  EXPECT_NE(stopped(alone), StopReason::iterations);
+  EXPECT_NE(stopped(beside), StopReason::iterations);
+  double far = 0;
+  for (Index v = 0; v < alone.vertex_count(); ++v)
+    far = std::max(far, (alone.positions[v] - beside.positions[v]).norm());
+  EXPECT_LT(far, 1e-3);
+}
+
 }  // namespace
 }  // namespace isorelax
