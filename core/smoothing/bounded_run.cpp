@@ -92,8 +92,7 @@ RunResult run_with_continuation(const SmoothingProblem& problem, const SmootherF
 namespace {
 
 double mean_of_smallest_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                               unsigned threads) {
-  const Topology topology(triangles, static_cast<Index>(positions.size()));
+                               const Topology& topology, unsigned threads) {
   return measure_quality(positions, triangles, topology, threads).mean_min_angle_deg;
 }
 
@@ -209,6 +208,12 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
       limit = widest;
       continue;
     }
+    if (cancelled && limit < widest) {
+      result.notes.push_back("ended early, within " + short_text(limit) +
+                             " of the diagonal: a whole run tries that first and begins again with " +
+                             short_text(widest) +
+                             " where more pays (--max-deviation nearest or widest: only one)");
+    }
     if (!attempts.limit.max && at_limit > 0) {
       result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
                              " as far from the input as is allowed, " + short_text(limit) +
@@ -217,7 +222,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     SurfaceWatch::Finding found = watch.look(positions, limit);
     result.deviation_limit = limit;
-    smoothed_mean = mean_of_smallest_angles(positions, attempts.triangles, options.threads);
+    smoothed_mean = mean_of_smallest_angles(positions, unheld.triangles, unheld.topology, options.threads);
     const bool sound = found.sound();
     if (attempts.polish && sound && !trying && !cancelled && result.run.stopped != StopReason::fixed) {
       result.deviation_limit = widest;
@@ -239,7 +244,9 @@ BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const 
   double with_squares = 0;
   BoundedResult result = run_from(positions, surface, options, attempts, with_squares);
   if (options.exponent || !is_about_angles || result.run.stopped == StopReason::cancelled) return result;
-  if (with_squares >= mean_of_smallest_angles(input, attempts.triangles, options.threads) - kSameMean)
+  const Topology topology(attempts.triangles, static_cast<Index>(input.size()));
+  if (with_squares >=
+      mean_of_smallest_angles(input, attempts.triangles, topology, options.threads) - kSameMean)
     return result;
   ProblemOptions linear = options;
   linear.exponent = 1;
