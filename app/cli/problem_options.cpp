@@ -72,9 +72,9 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->excludes(reference);
   app.add_option(
          "--boundary", spec.boundary,
-         "fixed (default); slide: along the border as it was, corners stay; or free: in the tangent plane, "
-         "corners stay and the surface stays within a mean edge length, or --max-deviation, of what it was, "
-         "either way: along the outline vertices may go farther")
+         "fixed (default); slide: along the border as it was, corners stay; or free: in the tangent plane "
+         "(with the automatic solver it slides first), corners stay and the surface stays within a mean edge "
+         "length, or --max-deviation, of what it was, either way: along the outline vertices may go farther")
       ->type_name("RULE");
   app.add_option(
          "--boundary-corner", spec.boundary_corner_deg,

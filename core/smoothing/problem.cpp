@@ -332,6 +332,23 @@ void check(const ProblemOptions& options) {
 
 }  // namespace
 
+namespace {
+
+/// SmoothingProblem::sliding, where nothing is held yet.
+std::shared_ptr<const SmoothingProblem> make_sliding(std::span<const Vec3> positions,
+                                                     std::span<const Triangle> triangles,
+                                                     ProblemOptions options) {
+  if (options.boundary != BoundaryRule::free) return nullptr;
+  options.boundary = BoundaryRule::slide;
+  options.holds = {};
+  auto problem = std::make_shared<const SmoothingProblem>(make_problem(positions, triangles, options));
+  const bool any = std::ranges::any_of(
+      problem->border, [&](const auto& one) { return problem->mobility[one.first] != Mobility::none; });
+  return any ? problem : nullptr;
+}
+
+}  // namespace
+
 SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& options) {
   check(options);
@@ -358,7 +375,8 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
                            .numbering = Renumbering(positions, triangles),
                            .mean_edge_length = 0,
                            .threads = options.threads,
-                           .notes = {}};
+                           .notes = {},
+                           .sliding = make_sliding(positions, triangles, options)};
   const bool field = std::holds_alternative<SizeFieldReference>(options.reference) ||
                      std::holds_alternative<CurvatureReference>(options.reference);
   if (field && options.weights.area == 0) {
@@ -375,6 +393,11 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
 }
 
 void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const Vec3> positions) {
+  if (problem.sliding) {
+    auto sliding = std::make_shared<SmoothingProblem>(*problem.sliding);
+    hold(*sliding, holds, positions);
+    problem.sliding = std::move(sliding);
+  }
   for (const Index v : holds.still) {
     problem.mobility[v] = Mobility::none;
     problem.fixed_limits[v] |= kLimitSurface;

@@ -141,6 +141,8 @@ struct SmoothingProblem {
   unsigned threads = 0;
   /// What was pinned and left out, in words for the user.
   std::vector<std::string> notes;
+  /// Where the border is free: the same, but it slides. None where nothing of it would.
+  std::shared_ptr<const SmoothingProblem> sliding;
 
   [[nodiscard]] Index vertex_count() const { return topology.vertex_count(); }
   [[nodiscard]] Index triangle_count() const { return static_cast<Index>(triangles.size()); }

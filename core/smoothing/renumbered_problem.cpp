@@ -33,7 +33,8 @@ class Renumberer {
             .numbering = {},
             .mean_edge_length = p_.mean_edge_length,
             .threads = p_.threads,
-            .notes = {}};
+            .notes = {},
+            .sliding = {}};
   }
 
  private:

@@ -70,7 +70,8 @@ std::unique_ptr<Smoother> make_lbfgs(const SmoothingProblem& problem, const Lbfg
 /// Which way of stepping.
 enum class Solver : std::uint8_t {
   automatic,  ///< evening out (make_even_out) and Newton steps while they pay, then L-BFGS to convergence,
-              ///< with steps of one vertex after another (make_one_by_one) where many are at the limit
+              ///< with steps of one vertex after another (make_one_by_one) where many are at the limit; a
+              ///< free border slides before it leaves its outline (make_slide_first)
   jacobi,     ///< the paper's
   newton,
   lbfgs,  ///< make_lbfgs; where it finds no step, one vertex after another

@@ -3,6 +3,7 @@
 #include "smoothing/even_out.h"
 #include "smoothing/one_by_one.h"
 #include "smoothing/renumbered_smoother.h"
+#include "smoothing/slide_first.h"
 
 namespace isorelax {
 namespace {
@@ -73,12 +74,13 @@ class AutomaticSmoother : public Smoother {
   }
 
   void choose_next(const StepRecord& record) {
-    const double gain = (record.before.energy - record.after.energy) / record.before.energy;
+    const double gain =
+        (record.before.movable_energy - record.after.movable_energy) / record.before.movable_energy;
     if (phase_ == Phase::even) {
       if (gain < kEvenGain || gain > kEvenedOut) phase_ = Phase::newton;
     } else if (phase_ == Phase::newton) {
       const bool bad =
-          record.after.worst_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
+          record.after.worst_movable_energy > kBadEnergy * (problem_.weights.shape + problem_.weights.area);
       if (gain < (bad ? kLeastGain : kWorthwhileGain)) phase_ = Phase::lbfgs;
     } else if (phase_ == Phase::one_by_one) {
       if (gain < kOneByOneGain && !all_are_stuck_) phase_ = Phase::lbfgs;
@@ -136,9 +138,11 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver 
     case Solver::automatic:
       break;
   }
-  return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+  const auto automatic = [=](const SmoothingProblem& numbered) {
     return std::make_unique<AutomaticSmoother>(numbered, detail);
-  });
+  };
+  return make_slide_first(
+      problem, [=](const SmoothingProblem& either) { return make_near_in_memory(either, automatic); });
 }
 
 }  // namespace isorelax

@@ -139,6 +139,44 @@ TEST(Borders, AFreeBorderMovesButStaysNearWhereItWas) {
   EXPECT_NEAR(signed_area(mesh), 1, 0.03);
 }
 
+// A border that moves freely at once is held by the limit here, and with it one angle of 44 degrees.
+TEST(Borders, AFreeBorderEndsNoWorseThanOneThatSlides) {
+  const TriangleMesh input =
+      generate(ShapeKind::hexagonal_square, {.seed = 2, .triangles = 2400, .jitter = 0.9});
+  TriangleMesh mesh = input;
+  const double sliding = smooth(mesh, {.boundary = BoundaryRule::slide}).run.after.energy;
+  mesh = input;
+  const BoundedResult free = smooth(mesh, {.boundary = BoundaryRule::free});
+  EXPECT_LT(free.run.after.energy, 0.99 * sliding);
+  EXPECT_LE(free.deviation.max, free.deviation_limit);
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  EXPECT_GT(measure_quality(mesh.positions, mesh.triangles, topology).min_angle_deg, 58);
+}
+
+// A smoother that is made anew on the way, as where a run is continued, does not pull it back.
+TEST(Borders, AFreeBorderThatHasLeftItsOutlineDoesNotComeBackToSlide) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 4, .triangles = 600});
+  const SmoothingProblem problem =
+      make_problem(mesh.positions, mesh.triangles, {.boundary = BoundaryRule::free});
+  ASSERT_TRUE(problem.sliding);
+  const auto off_outline = [&] {
+    double far = 0;
+    for (const auto& [v, ends] : problem.sliding->border) {
+      const Vec3& p = mesh.positions[v];
+      far = std::max(far,
+                     std::min({std::abs(p.x()), std::abs(p.y()), std::abs(1 - p.x()), std::abs(1 - p.y())}));
+    }
+    return far;
+  };
+  run(*make_smoother(problem, Solver::automatic), problem, mesh.positions, {.iterations = 4, .tolerance = 0});
+  EXPECT_LT(off_outline(), 1e-12) << "it slides first";
+  run(*make_smoother(problem, Solver::automatic), problem, mesh.positions, {.iterations = 200});
+  const double far = off_outline();
+  EXPECT_GT(far, 1e-3);
+  run(*make_smoother(problem, Solver::automatic), problem, mesh.positions, {.iterations = 1, .tolerance = 0});
+  EXPECT_GT(off_outline(), 0.9 * far);
+}
+
 TEST(Borders, PinsHoldBitForBitWhereOthersSlide) {
   TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 2, .triangles = 400});
   const TriangleMesh input = mesh;
