@@ -20,6 +20,8 @@ constexpr double kNoWeight = 1e-12;
 /// for which an unknown's curvature is at least this share of the largest.
 constexpr double kBack = 2;
 constexpr double kBackDamping = 1e-4;
+/// Share of the largest that an unknown of no angle that counts has as its curvature, so that it has any.
+constexpr double kFree = 1e-8;
 
 }  // namespace
 
@@ -129,14 +131,15 @@ void GroupClimb::find_moves(PolishState& state, const Aim& aim, const Group& gro
   Eigen::SparseMatrix<double> matrix(2 * count, 2 * count);
   for (Index i = 0; i < 2 * count; ++i) entries_.emplace_back(i, i, 0);
   matrix.setFromTriplets(entries_.begin(), entries_.end());
+  double largest = 0;
+  for (Index i = 0; i < 2 * count; ++i) largest = std::max(largest, matrix.coeff(i, i));
+  if (largest == 0) largest = 1;
   for (Index i = 0; i < 2 * count; ++i) {
     double& own = matrix.coeffRef(i, i);
-    own = own > 0 ? (1 + kGroupDamping) * own : 1;
+    own = own > 0 ? (1 + kGroupDamping) * own : kFree * largest;
   }
   using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
   Eigen::VectorXd step = Factors(matrix).solve(slope_);
-  double largest = 0;
-  for (Index i = 0; i < 2 * count; ++i) largest = std::max(largest, matrix.coeff(i, i));
   double share = 1 / std::max(1 - aim.sharpness * slope_.dot(step), kGroupDamping);
   const double loss = -smallest_slope_.dot(step);
   if (loss * share > aim.spare) {

@@ -362,5 +362,18 @@ TEST(PolishState, AVertexIsStuckUntilSomethingAboutItChanges) {
   EXPECT_FALSE(state.is_stuck(vertex));
 }
 
+TEST(Polish, DoesNotDependOnTheUnitOfLength) {
+  const TriangleMesh mesh = generate(ShapeKind::cylinder, {.seed = 1, .triangles = 1000, .jitter = 0.8});
+  constexpr double kUnit = 1 << 20;
+  TriangleMesh small = mesh;
+  for (Vec3& p : small.positions) p /= kUnit;
+  const TriangleMesh polished = polish(mesh, {}).polished;
+  const TriangleMesh small_polished = polish(small, {}).polished;
+  double far = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    far = std::max(far, (polished.positions[v] - kUnit * small_polished.positions[v]).norm());
+  EXPECT_LT(far, 1e-9);
+}
+
 }  // namespace
 }  // namespace isorelax
