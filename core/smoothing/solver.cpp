@@ -20,10 +20,12 @@ constexpr double kBadEnergy = 7;
 constexpr double kWorthwhileGain = 0.01;
 constexpr double kLeastGain = 0.002;
 
-/// Where vertices are at the limit of the distance and steps of L-BFGS gain less than this share, or none is
-/// found, vertices move one by one, as long as that gains the other share; then L-BFGS has so many steps.
-/// Where it finds none even so, they go on one by one.
+/// Where limits hold vertices back, of the distance or of the worst angles, and steps of L-BFGS gain less
+/// than this share, or none is found, vertices move one by one, as long as that gains the third share; then
+/// L-BFGS has so many steps, or fewer where they gain less than the second. Where it finds none even so, they
+/// go on one by one.
 constexpr double kHeldUpGain = 1e-4;
+constexpr double kNoGain = 1e-6;
 constexpr double kOneByOneGain = 1e-3;
 constexpr unsigned kStepsForAll = 16;
 
@@ -41,10 +43,7 @@ class AutomaticSmoother : public Smoother {
       if (!newton_) newton_ = make_newton(problem_, {.detail = detail_});
       newton_->step(positions, record);
     }
-    if (phase_ == Phase::lbfgs) {
-      if (!lbfgs_) lbfgs_ = make_lbfgs(problem_, {.detail = detail_});
-      lbfgs_->step(positions, record);
-    }
+    if (phase_ == Phase::lbfgs) lbfgs().step(positions, record);
     // What leads all of them nowhere may still leave one after another a way.
     if (phase_ != Phase::one_by_one && record.moved == 0) {
       all_are_stuck_ = phase_ == Phase::lbfgs && steps_for_all_ == 0;
@@ -53,6 +52,11 @@ class AutomaticSmoother : public Smoother {
     if (phase_ == Phase::one_by_one) {
       if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
       one_by_one_->step(positions, record);
+      if (record.moved == 0 && !all_are_stuck_) {
+        phase_ = Phase::lbfgs;
+        pays_alone_ = false;
+        lbfgs().step(positions, record);
+      }
     }
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
@@ -62,15 +66,21 @@ class AutomaticSmoother : public Smoother {
  private:
   enum class Phase : std::uint8_t { even, newton, lbfgs, one_by_one };
 
+  Smoother& lbfgs() {
+    if (!lbfgs_) lbfgs_ = make_lbfgs(problem_, {.detail = detail_});
+    return *lbfgs_;
+  }
+
   void begin() {
     phase_ = wants_even(problem_) ? Phase::even : Phase::newton;
     if (phase_ == Phase::even) even_out_ = make_even_out(problem_, detail_);
     steps_for_all_ = 0;
     all_are_stuck_ = false;
+    pays_alone_ = true;
   }
 
-  [[nodiscard]] static bool is_at_limit(const StepRecord& record) {
-    return std::ranges::any_of(record.limits, [](auto limits) { return (limits & kLimitSurface) != 0; });
+  [[nodiscard]] static bool is_limited(const StepRecord& record, std::uint16_t by) {
+    return std::ranges::any_of(record.limits, [=](auto limits) { return (limits & by) != 0; });
   }
 
   void choose_next(const StepRecord& record) {
@@ -84,9 +94,14 @@ class AutomaticSmoother : public Smoother {
       if (gain < (bad ? kLeastGain : kWorthwhileGain)) phase_ = Phase::lbfgs;
     } else if (phase_ == Phase::one_by_one) {
       if (gain < kOneByOneGain && !all_are_stuck_) phase_ = Phase::lbfgs;
+      pays_alone_ = gain >= kHeldUpGain;
       steps_for_all_ = 0;
-    } else if (++steps_for_all_ >= kStepsForAll && gain < kHeldUpGain && is_at_limit(record)) {
-      phase_ = Phase::one_by_one;
+    } else {
+      const bool held_up = ++steps_for_all_ >= kStepsForAll && gain < kHeldUpGain;
+      const bool jammed = pays_alone_ && gain < kNoGain;
+      if ((held_up && is_limited(record, kLimitSurface)) ||
+          (jammed && is_limited(record, kLimitSurface | kLimitFold)))
+        phase_ = Phase::one_by_one;
     }
     if (phase_ != Phase::even) even_out_.reset();
   }
@@ -98,6 +113,7 @@ class AutomaticSmoother : public Smoother {
   Phase phase_ = Phase::even;
   unsigned steps_for_all_ = 0;
   bool all_are_stuck_ = false;  // L-BFGS found no step from where others had led
+  bool pays_alone_ = true;      // the last steps of one vertex after another, if any, gained something
 };
 
 /// L-BFGS; where it finds no step, vertices find theirs one by one, and it starts anew from there.
