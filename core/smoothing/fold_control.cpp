@@ -218,7 +218,7 @@ std::vector<Index> FoldControl::shrink_until_near(Trial& trial, StepRecord& reco
   std::vector<Index> changed;
   for (unsigned round = 1;; ++round) {
     const auto blame = round <= kNearRounds ? SurfaceLimit::Blame::movers : SurfaceLimit::Blame::all;
-    const std::vector<SurfaceLimit::Excess> far = surface_.too_far(trial.to(), blame);
+    const std::vector<SurfaceLimit::Excess> far = surface_.too_far(trial.to(), blame, trial.from());
     if (far.empty()) return changed;
     ++record.fold_passes;
     begin_pass(record, kLimitSurface);

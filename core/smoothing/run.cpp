@@ -31,7 +31,7 @@ double gradient_scale_of(const SmoothingProblem& problem, const StepTotals& firs
 std::optional<StopReason> stop_after(const Smoother& smoother, const StepRecord& record,
                                      const RunResult& result, const RunOptions& options,
                                      double gradient_scale, unsigned idle_steps) {
-  if (!(options.tolerance > 0)) return std::nullopt;
+  if (!(options.tolerance > 0) || smoother.leads_on()) return std::nullopt;
   if (!smoother.descends()) {
     return result.relative_move <= options.tolerance ? std::optional(StopReason::movement) : std::nullopt;
   }
@@ -120,7 +120,7 @@ RunResult run(Smoother& smoother, const SmoothingProblem& problem, std::span<Vec
     result.gradient_ratio = first_gradient > 0 ? record.before.gradient_norm / first_gradient : 0;
     result.energy_change = (record.before.movable_energy - record.after.movable_energy) /
                            energy_scale(problem, record.before.movable_energy);
-    idle_steps = result.energy_change <= options.tolerance ? idle_steps + 1 : 0;
+    idle_steps = result.energy_change <= options.tolerance && !smoother.leads_on() ? idle_steps + 1 : 0;
     result.relative_move = record.largest_move / problem.mean_edge_length;
     if (observer && !observer(result.iterations, record, positions)) {
       result.stopped = StopReason::cancelled;

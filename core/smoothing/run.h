@@ -24,6 +24,8 @@ class Smoother {
   virtual void step(std::span<const Vec3> positions, StepRecord& record) = 0;
   /// Whether every step lowers the problem's energy; a run of another method stops by its moves alone.
   [[nodiscard]] virtual bool descends() const { return true; }
+  /// Whether steps of another kind are still to come: then small ones are not the end of a run.
+  [[nodiscard]] virtual bool leads_on() const { return false; }
 };
 
 /// Makes the smoother for a problem.

@@ -19,6 +19,8 @@ class SlideFirst : public Smoother {
     sliding_.exponent = problem.exponent;
   }
 
+  [[nodiscard]] bool leads_on() const override { return slider_ != nullptr; }
+
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     if (!std::ranges::equal(positions, led_to_))
       slider_ = is_on_outline(positions) ? make_(sliding_) : nullptr;

@@ -207,13 +207,27 @@ void SurfaceLimit::measure(std::size_t id, std::span<const Vec3> x, const std::a
     line.bound = 0;
   }
   if (line.peak.foot.distance <= seen_ && is_near(view, a, b, kDivisions, line)) return;
-  // What is too far depends on the triangle nearest to it, as what is near does.
+  // What is too far depends on the triangles nearest to it, as what is near does: they are about these.
   line.bound = INFINITY;
   if (view.now) return;
-  for (const Index v : problem_.triangles[line.peak.foot.triangle]) note_use(line, v);
+  for (const Index t : {a.foot.triangle, b.foot.triangle, line.peak.foot.triangle})
+    for (const Index v : problem_.triangles[t])
+      for (const Corner c : problem_.topology.corners_of(v))
+        for (const Index w : problem_.triangles[c / 3]) note_use(line, w);
 }
 
-void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blame,
+/// A triangle of now within the limit, even where no walk leads there: it was moved away from.
+SurfacePoint SurfaceLimit::surely_nearest(const View& view, const Vec3& point, Index triangle) const {
+  SurfacePoint found = nearest(view, point, triangle);
+  if (found.distance <= proven_) return found;
+  for (Index t = 0; t < problem_.triangle_count(); ++t) {
+    const SurfacePoint other = closest_of(view, t, point);
+    if (other.distance < found.distance) found = other;
+  }
+  return found;
+}
+
+void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::span<const Vec3> from,
                              std::vector<Excess>& to) const {
   const View view = view_of(id, x);
   const auto& [share, foot] = lines_[id].peak;
@@ -227,15 +241,20 @@ void SurfaceLimit::blame_for(std::size_t id, std::span<const Vec3> x, Blame blam
     if (share >= least) to.push_back({b, outwards});
     return;
   }
-  for (unsigned k = 0; k < 3; ++k) {
-    const Index v = problem_.triangles[found.triangle][k];
-    if (blame == Blame::movers) {
-      if (found.barycentric[k] >= least) to.push_back({v, outwards});
-      continue;
-    }
-    for (const Corner c : problem_.topology.corners_of(v))
-      for (const Index w : problem_.triangles[c / 3]) to.push_back({w, outwards});
+  if (blame == Blame::movers) {
+    for (unsigned k = 0; k < 3; ++k)
+      if (found.barycentric[k] >= least) to.push_back({problem_.triangles[found.triangle][k], outwards});
+    return;
   }
+  const auto blame_all_about = [&](Index triangle) {
+    for (const Index v : problem_.triangles[triangle])
+      for (const Corner c : problem_.topology.corners_of(v))
+        for (const Index w : problem_.triangles[c / 3]) to.push_back({w, outwards});
+  };
+  blame_all_about(found.triangle);
+  // What is near now need not have moved: what was near has.
+  if (!from.empty())
+    blame_all_about(surely_nearest({false, view.first, view.second, from}, point, found.triangle).triangle);
 }
 
 void SurfaceLimit::note_moves(std::span<const Vec3> x) {
@@ -246,7 +265,8 @@ void SurfaceLimit::note_moves(std::span<const Vec3> x) {
   last_.assign(x.begin(), x.end());
 }
 
-std::vector<SurfaceLimit::Excess> SurfaceLimit::too_far(std::span<const Vec3> x, Blame blame) {
+std::vector<SurfaceLimit::Excess> SurfaceLimit::too_far(std::span<const Vec3> x, Blame blame,
+                                                        std::span<const Vec3> from) {
   if (!problem_.near) return {};
   prepare();
   note_moves(x);
@@ -267,7 +287,7 @@ std::vector<SurfaceLimit::Excess> SurfaceLimit::too_far(std::span<const Vec3> x,
       if (is_near_still(lines_[id])) continue;
       const auto& feet = is_of_now(id) ? feet_now_ : feet_then_;
       measure(id, x, {feet[ends_of_[id][0]], feet[ends_of_[id][1]]});
-      if (lines_[id].bound > proven_) blame_for(id, x, blame, far);
+      if (lines_[id].bound > proven_) blame_for(id, x, blame, from, far);
     }
   });
   std::vector<Excess> all;

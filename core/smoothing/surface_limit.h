@@ -28,15 +28,16 @@ class SurfaceLimit {
   enum class Blame : std::uint8_t {
     movers,  ///< those whose moves count at the farthest point: ends of an edge, corners of the nearest
              ///< triangle
-    all,     ///< all ends, and all vertices about the nearest triangle
+    all,     ///< all ends, and all vertices about the nearest triangle and the one that was nearest
   };
   /// A vertex to blame, and the unit direction away from the surface as it was.
   struct Excess {
     Index vertex;
     Vec3 outwards;
   };
-  /// What is too far with all vertices at `x`, sorted by vertices.
-  [[nodiscard]] std::vector<Excess> too_far(std::span<const Vec3> x, Blame blame);
+  /// What is too far with all vertices at `x`, sorted by vertices. What is asked of `all` came from `from`.
+  [[nodiscard]] std::vector<Excess> too_far(std::span<const Vec3> x, Blame blame,
+                                            std::span<const Vec3> from = {});
 
   /// Before vertices are moved one after another: where they are.
   void start(std::span<const Vec3> x);
@@ -88,7 +89,9 @@ class SurfaceLimit {
   [[nodiscard]] double bound_along(const View& view, Index triangle) const;
   [[nodiscard]] LineBound bound(const View& view, const Sample& a, const Sample& b) const;
   void note_use(Line& line, Index vertex) const;
-  void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::vector<Excess>& to) const;
+  void blame_for(std::size_t id, std::span<const Vec3> x, Blame blame, std::span<const Vec3> from,
+                 std::vector<Excess>& to) const;
+  [[nodiscard]] SurfacePoint surely_nearest(const View& view, const Vec3& point, Index triangle) const;
 
   const SmoothingProblem& problem_;
   double seen_ = 0, proven_ = 0;               // the largest distances that a sample and a bound may have

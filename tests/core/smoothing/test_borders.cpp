@@ -136,7 +136,7 @@ TEST(Borders, AFreeBorderMovesButStaysNearWhereItWas) {
   const BoundedResult result = smooth(mesh, {.boundary = BoundaryRule::free});
   EXPECT_LE(result.deviation.max, result.deviation_limit);
   EXPECT_GT(result.deviation.max, 1e-6);
-  EXPECT_NEAR(signed_area(mesh), 1, 0.03);
+  EXPECT_NEAR(signed_area(mesh), 1, 0.04);
 }
 
 // A border that moves freely at once is held by the limit here, and with it one angle of 44 degrees.
@@ -151,6 +151,47 @@ TEST(Borders, AFreeBorderEndsNoWorseThanOneThatSlides) {
   EXPECT_LE(free.deviation.max, free.deviation_limit);
   const Topology topology(mesh.triangles, mesh.vertex_count());
   EXPECT_GT(measure_quality(mesh.positions, mesh.triangles, topology).min_angle_deg, 58);
+}
+
+/// A grid of quadrilaterals, two triangles each; `place` maps the unit square to where they are.
+template <typename Place>
+TriangleMesh grid(Index columns, Index rows, const Place& place, bool both_diagonals) {
+  TriangleMesh mesh;
+  for (Index i = 0; i <= columns; ++i)
+    for (Index j = 0; j <= rows; ++j)
+      mesh.positions.push_back(place(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
+  for (Index i = 0; i < columns; ++i)
+    for (Index j = 0; j < rows; ++j) {
+      const Index a = i * (rows + 1) + j, b = a + rows + 1, c = b + 1, d = a + 1;
+      if (both_diagonals && (i + j) % 2 == 1) {
+        mesh.triangles.push_back({a, b, d});
+        mesh.triangles.push_back({b, c, d});
+      } else {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+      }
+    }
+  return mesh;
+}
+
+// What the border leaves behind is near what moves away, not near what stays.
+TEST(Borders, AFreeBorderKeepsTheLimitAndEndsNoWorse) {
+  const auto sheared = [](double u, double v) { return Vec3(2 * u + 1.8 * v, v, 0); };
+  const TriangleMesh input = grid(40, 25, sheared, false);
+  TriangleMesh mesh = input;
+  const BoundedResult free = smooth(mesh, {.boundary = BoundaryRule::free}, 400);
+  EXPECT_LE(free.deviation.max, free.deviation_limit);
+  mesh = input;
+  EXPECT_LT(free.run.after.energy,
+            0.9 * smooth(mesh, {.boundary = BoundaryRule::slide}, 400).run.after.energy);
+}
+
+// All others are held up by the few that may get no worse, unless each goes its own way.
+TEST(Borders, WhereTheWorstAnglesHoldStepsOfAllUpSingleVerticesGoOn) {
+  const auto layers = [](double u, double v) { return Vec3(4 * u, std::expm1(6 * v) / std::expm1(6), 0); };
+  TriangleMesh mesh = grid(40, 30, layers, true);
+  const BoundedResult result = smooth(mesh, {.exponent = 2}, 1000);
+  EXPECT_LT(result.run.after.energy, 350'000) << "289,000 can be reached, 1,680,000 without";
 }
 
 // A smoother that is made anew on the way, as where a run is continued, does not pull it back.
