@@ -12,48 +12,38 @@ std::pair<Index, Index> edge_of(std::span<const Triangle> triangles, Corner corn
   return std::minmax(t[next(corner % 3)], t[previous(corner % 3)]);
 }
 
-/// Triangles beyond crowded edges, for the search to step over: sorted pairs of (triangle, neighbour).
-std::vector<std::pair<Index, Index>> crowded_links(std::span<const Triangle> triangles,
-                                                   const Topology& topology) {
-  std::vector<std::pair<Index, Index>> links;
-  for (const auto& corners : crowded_edges(triangles, topology)) {
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-      links.emplace_back(corners[i - 1] / 3, corners[i] / 3);
-      links.emplace_back(corners[i] / 3, corners[i - 1] / 3);
-    }
-  }
-  std::sort(links.begin(), links.end());
-  return links;
-}
-
+/// Spreads over edges with two triangles from patch to patch, then joins patches over edges with more.
 class Search {
  public:
   Search(std::span<const Triangle> triangles, const Topology& topology)
-      : triangles_(triangles), topology_(topology), links_(crowded_links(triangles, topology)) {
+      : triangles_(triangles), topology_(topology), patch_(triangles.size(), kNone) {
     found_.component.assign(triangles.size(), kNone);
     found_.turn.assign(triangles.size(), false);
   }
 
   Orientation run() {
     for (Index t = 0; t < triangles_.size(); ++t) {
-      if (found_.component[t] == kNone) spread_from(t);
+      if (patch_[t] == kNone) spread_from(t);
     }
+    for (const auto& corners : crowded_edges(triangles_, topology_)) {
+      for (const Corner c : corners) join(patch_[corners[0] / 3], patch_[c / 3]);
+    }
+    number_components();
     return std::move(found_);
   }
 
  private:
   void spread_from(Index seed) {
-    const Index id = found_.component_count++;
-    found_.orientable.push_back(true);
+    const auto id = static_cast<Index>(joined_to_.size());
+    joined_to_.push_back(id);
+    orientable_.push_back(true);
     members_.assign(1, seed);
-    found_.component[seed] = id;
+    patch_[seed] = id;
     std::size_t turned = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows meanwhile
       const Index t = members_[i];
       turned += found_.turn[t] ? 1 : 0;
       for (Corner c = 3 * t; c < 3 * t + 3; ++c) step_across(c, id);
-      const auto first = std::lower_bound(links_.begin(), links_.end(), std::pair(t, Index{0}));
-      for (auto link = first; link != links_.end() && link->first == t; ++link) reach(link->second, id);
     }
     if (2 * turned > members_.size()) {
       for (const Index t : members_) found_.turn[t] = !found_.turn[t];
@@ -63,24 +53,49 @@ class Search {
   void step_across(Corner corner, Index id) {
     const Corner beyond = topology_.opposite(corner);
     if (beyond == kNone) return;
+    const Index t = beyond / 3;
     const bool turn = found_.turn[corner / 3] == consistent_across(triangles_, topology_, corner);
-    if (reach(beyond / 3, id)) {
-      found_.turn[beyond / 3] = turn;
-    } else if (found_.turn[beyond / 3] != turn) {
-      found_.orientable[id] = false;
+    if (patch_[t] == kNone) {
+      patch_[t] = id;
+      found_.turn[t] = turn;
+      members_.push_back(t);
+    } else if (found_.turn[t] != turn) {
+      orientable_[id] = false;
     }
   }
 
-  bool reach(Index t, Index id) {
-    if (found_.component[t] != kNone) return false;
-    found_.component[t] = id;
-    members_.push_back(t);
-    return true;
+  /// The first patch of those that a patch has been joined to.
+  Index first_of(Index patch) {
+    while (joined_to_[patch] != patch) patch = joined_to_[patch] = joined_to_[joined_to_[patch]];
+    return patch;
+  }
+
+  void join(Index a, Index b) {
+    const auto [first, second] = std::minmax({first_of(a), first_of(b)});
+    joined_to_[second] = first;
+  }
+
+  /// Patches stand in the order of their first triangles, and so do components.
+  void number_components() {
+    std::vector<Index> component(joined_to_.size(), kNone);
+    for (Index patch = 0; patch < joined_to_.size(); ++patch) {
+      const Index first = first_of(patch);
+      if (first == patch) {
+        component[patch] = found_.component_count++;
+        found_.orientable.push_back(true);
+      } else {
+        component[patch] = component[first];
+      }
+      if (!orientable_[patch]) found_.orientable[component[patch]] = false;
+    }
+    for (Index t = 0; t < triangles_.size(); ++t) found_.component[t] = component[patch_[t]];
   }
 
   std::span<const Triangle> triangles_;
   const Topology& topology_;
-  std::vector<std::pair<Index, Index>> links_;
+  std::vector<Index> patch_;      // of every triangle
+  std::vector<Index> joined_to_;  // per patch, an earlier one or itself
+  std::vector<bool> orientable_;  // per patch
   std::vector<Index> members_;
   Orientation found_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/repair.h"
 #include "mesh/validation.h"
 
 namespace isorelax {
@@ -114,6 +115,20 @@ TEST(Validation, TurnedTriangleShowsAtItsThreeEdges) {
   for (const EdgeFinding& edge : r.inconsistent_edges) {
     EXPECT_EQ(std::count(edge.triangles.begin(), edge.triangles.end(), 9U), 1);
   }
+}
+
+TEST(Validation, AnEdgeOfThreeTrianglesAsksForNoDirection) {
+  // Three triangles about vertex 1, the last turned over; it shares {0, 1} with the first and a stray one.
+  TriangleMesh mesh;
+  mesh.positions = {{1, 0, 0}, {0, 0, 1}, {-1, 1, 0}, {-1, -1, 0}, {2, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 3}, {1, 3, 0}, {0, 1, 4}};
+  const ValidationReport r = validate(mesh);
+  EXPECT_EQ(r.non_manifold_edges.size(), 1U);
+  EXPECT_EQ(r.components.size(), 1U);
+  EXPECT_FALSE(r.oriented);
+  EXPECT_TRUE(r.orientable);
+  EXPECT_EQ(orient_consistently(mesh), std::vector<Index>{2});
+  EXPECT_TRUE(validate(mesh).oriented);
 }
 
 TEST(Validation, MoebiusStripIsNotOrientable) {
