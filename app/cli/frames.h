@@ -26,8 +26,8 @@ class Frames {
   /// Keeps what is to be shown of an iteration. A run that starts again replaces what was kept of the one
   /// before.
   void take(unsigned iteration, std::span<const Vec3> positions);
-  /// Draws and writes all frames: numbered files in a folder, or one animated PNG. `mesh` is the result.
-  /// Throws OutputError, UsageError (the view).
+  /// Draws and writes all frames: numbered files in a folder, or one animated PNG. `mesh` is the result,
+  /// after so many iterations, those of a polish too. Throws OutputError, UsageError (the view).
   void write(Console& console, const TriangleMesh& mesh, unsigned iterations) const;
 
  private:

@@ -155,7 +155,7 @@ class SmoothCommand : public Command {
     }
     for (const std::string& message : write_mesh(output_, mesh, write_like(file, output_)))
       console.message(output_ + ": " + message);
-    frames_.write(console, mesh, outcome.run.iterations);
+    frames_.write(console, mesh, outcome.run.iterations + (outcome.polish ? outcome.polish->iterations : 0));
     console.message(cli::summary(outcome));
     console.message("distance from the input surface " + number_text(outcome.deviation.max) + " at most, " +
                     number_text(outcome.deviation.rms) + " RMS (of the bounding-box diagonal)" +

@@ -186,6 +186,21 @@ TEST_F(PictureCommands, a_run_becomes_numbered_pictures_on_one_camera_and_one_ra
   EXPECT_EQ(run_program(smooth + " --frames " + path("m.off") + "/x").status, 4);
 }
 
+TEST_F(PictureCommands, the_last_frame_counts_the_iterations_of_a_polish_too) {
+  ASSERT_EQ(run_program("generate random --triangles 200 -o " + path("m.off")).status, 0);
+  ASSERT_EQ(run_program("smooth " + path("m.off") + " -o " + path("o.off") +
+                        " --iterations 3 --tolerance 0 --polish worst --every 1000 --report " +
+                        path("r.json") + " --frames " + path("frames"))
+                .status,
+            0);
+  const Json report = Json::parse(contents(path("r.json")));
+  const unsigned polished = report["polish"]["iterations"];
+  ASSERT_GT(polished, 0U);
+  // The view that it carries names it.
+  const std::string label = "iteration " + std::to_string(3 + polished);
+  EXPECT_NE(contents(path("frames/frame_0001.png")).find(label + "\""), std::string::npos) << label;
+}
+
 TEST(Script, DoesASessionAgainAndTellsWhatDoesNotHold) {
   const Workspace folder;
   ASSERT_EQ(run_program("generate random --triangles 200 --seed 3 -o '" + folder.path("a.off") + "'").status,
