@@ -83,7 +83,8 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
       ->type_name("DEGREES")
       ->check(number_between(0, 180));
   app.add_option("--features", spec.features,
-                 "Ridges and corners to keep: auto (default), none, or the ridge angle in degrees")
+                 "Ridges and corners to keep: auto (default), none, or the least angle in degrees by "
+                 "which a ridge turns (180: as none)")
       ->type_name("F");
   app.add_option("--surface", spec.surface,
                  "project (default): slide on the surface as it was; tangent: move in tangent planes only")
@@ -129,9 +130,7 @@ FeatureOptions parse_features(const std::string& text) {
     throw UsageError("--features " + text +
                      ": expected auto, none, or an angle over 0 and up to 180 degrees");
   }
-  FeatureOptions options;
-  options.ridge_angle_deg = *degrees;
-  return options;
+  return FeatureOptions::ridges_from(*degrees);
 }
 
 namespace {

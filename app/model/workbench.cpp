@@ -56,17 +56,15 @@ ReferenceChoice reference_choice(const SmoothingSettings& settings) {
 }  // namespace
 
 FeatureOptions feature_options(const SmoothingSettings& settings) {
-  FeatureOptions options;
   switch (settings.features) {
     case FeatureRule::automatic:
       break;
     case FeatureRule::none:
       return FeatureOptions::none();
     case FeatureRule::angle:
-      options.ridge_angle_deg = settings.feature_deg;
-      break;
+      return FeatureOptions::ridges_from(settings.feature_deg);
   }
-  return options;
+  return {};
 }
 
 ProblemOptions problem_options(const SmoothingSettings& settings) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,7 @@ std::string_view to_string(VertexClass c);
 /// own code where it has one.
 struct FeatureOptions {
   /// A vertex whose normals spread like those of a crease with at least this dihedral turn is not smooth: the
-  /// spread is 2 atan(sqrt(l2 / l1)). 180 or more: no features at all.
+  /// spread is 2 atan(sqrt(l2 / l1)).
   double ridge_angle_deg = 30;
   /// An edge whose two faces turn by more than this makes both its ends ridge.
   double sharp_edge_deg = 65;
@@ -39,7 +40,17 @@ struct FeatureOptions {
   /// A boundary that turns by more than this in a vertex has a corner there.
   double boundary_turn_deg = 45;
 
+  /// No ridges and no corners but those of borders.
   static constexpr FeatureOptions none() { return {180, 180, 1e9, 45}; }
+
+  /// Ridges that turn by at least this, with a sharp edge no lower; from 180 on none.
+  static constexpr FeatureOptions ridges_from(double degrees) {
+    if (!(degrees < 180)) return none();
+    FeatureOptions options;
+    options.ridge_angle_deg = degrees;
+    options.sharp_edge_deg = std::max(options.sharp_edge_deg, degrees);
+    return options;
+  }
 };
 
 /// An edge that is part of a feature, once, by the smaller of the corners opposite to it.

@@ -77,6 +77,15 @@ TEST(VertexClasses, MeshedFlatFacesEndInRidgesHoweverGentle) {
   EXPECT_NEAR(found.margin_deg[ridge], 10 - 2, 1e-6) << "over what makes a rim a ridge";
 }
 
+TEST(VertexClasses, RidgesFromAnAngleTurnByNoLess) {
+  const TriangleMesh steep = roof(2, 80);
+  EXPECT_EQ(count_ridge(steep, FeatureOptions::ridges_from(60)), 1U);
+  EXPECT_EQ(count_ridge(steep, FeatureOptions::ridges_from(100)), 0U);
+  EXPECT_EQ(count_ridge(steep, {.ridge_angle_deg = 100}), 1U) << "a sharp edge has a threshold of its own";
+  EXPECT_EQ(count_ridge(roof(12, 80), FeatureOptions::ridges_from(180)), 0U)
+      << "not even those of flat faces";
+}
+
 TEST(VertexClasses, OfACylinderAreTwoCircularRidges) {
   for (const double jitter : {0.0, 0.3}) {
     const TriangleMesh cylinder = generate(ShapeKind::cylinder, {.triangles = 2000, .jitter = jitter});
