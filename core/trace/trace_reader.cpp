@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -115,6 +116,9 @@ class Reader {
       get_words(json, trace_);
       vertices_ = json.at("vertices").get<std::size_t>();
       triangles_ = json.at("triangles").get<std::size_t>();
+      // Nothing that is bounded by this overflows where sizes are computed from it.
+      constexpr std::size_t kMost = std::numeric_limits<Index>::max();
+      if (vertices_ > kMost || triangles_ > kMost) fail(part_start_, "promises a mesh of too many elements");
       const auto iterations = json.at("iterations").get<std::size_t>();
       const auto parts = version_ > kFirstTraceVersion ? json.at("parts").get<std::size_t>() : 0;
       // Each takes bytes of its own: a lying count asks for no more memory than the file's size allows.
@@ -140,6 +144,9 @@ class Reader {
     trace_.triangles.resize(triangles_);
     for (Index v = 0; v < vertices_; ++v)
       std::memcpy(trace_.positions[v].data(), content.data() + v * sizeof(Vec3), sizeof(Vec3));
+    for (const Vec3& x : trace_.positions) {
+      if (!x.allFinite()) fail(part_start_, "a position of the mesh is not finite");
+    }
     std::memcpy(trace_.triangles.data(), content.data() + vertices_ * sizeof(Vec3),
                 triangles_ * sizeof(Triangle));
     for (const Triangle& t : trace_.triangles) {
