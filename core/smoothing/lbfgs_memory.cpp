@@ -73,8 +73,8 @@ void LbfgsMemory::arrive(std::span<const Vec3> positions, const Field& gradient,
   if (own[2] < useless * useless) {
     clear();
   } else if (own[0] > kLeastCurvature * std::sqrt(own[2] * own[3])) {
-    if (n == pairs_) used_.erase(used_.begin());
     used_.push_back(free);
+    if (used_.size() > pairs_) used_.erase(used_.begin());
   }
 }
 

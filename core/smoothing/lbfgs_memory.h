@@ -14,7 +14,7 @@ using Field = std::vector<Vec3>;
 /// order, for any number of threads.
 class LbfgsMemory {
  public:
-  /// Remembers up to `pairs` pairs, at most 32.
+  /// Remembers up to `pairs` pairs; with none, directions are those of the blocks.
   LbfgsMemory(std::size_t vertices, unsigned pairs, unsigned threads);
 
   [[nodiscard]] bool empty() const { return used_.empty(); }

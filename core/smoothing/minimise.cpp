@@ -64,8 +64,8 @@ double minimise(const DifferentiableFunction& function, Eigen::VectorXd& x, cons
     CurvaturePair pair{there - x, next_gradient - gradient, 0};
     pair.curvature = pair.move.dot(pair.change);
     if (pair.curvature > 1e-10 * pair.move.norm() * pair.change.norm()) {
-      if (pairs.size() == options.memory) pairs.pop_front();
       pairs.push_back(std::move(pair));
+      if (pairs.size() > options.memory) pairs.pop_front();
     }
     const double decrease = value - next_value;
     x.swap(there);

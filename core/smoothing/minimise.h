@@ -10,7 +10,7 @@ using DifferentiableFunction = std::function<double(const Eigen::VectorXd& x, Ei
 
 struct MinimiseOptions {
   unsigned iterations = 100;
-  /// Pairs of moves and gradient changes that are remembered.
+  /// Pairs of moves and gradient changes that are remembered; with none, every step goes down the gradient.
   unsigned memory = 8;
   /// Stops when an iteration lowers the value by less than this share of it.
   double tolerance = 1e-4;

@@ -308,9 +308,11 @@ TEST(Minimise, FindsTheMinimumOfACurvedValley) {
   };
   Eigen::VectorXd x(2);
   x << -1.2, 1;
+  Eigen::VectorXd downhill = x;
   EXPECT_LT(minimise(valley, x, {.iterations = 200, .tolerance = 0}), 1e-12);
   EXPECT_NEAR(x[0], 1, 1e-6);
   EXPECT_NEAR(x[1], 1, 1e-6);
+  EXPECT_LT(minimise(valley, downhill, {.iterations = 200, .memory = 0, .tolerance = 0}), 5);
 }
 
 }  // namespace
