@@ -38,6 +38,11 @@ GuardedSmoother::GuardedSmoother(const SmoothingProblem& problem, StepKind kind,
 
 void GuardedSmoother::set_move(StepRecord& record, Index vertex, const Vec3& move) const {
   record.displacement[vertex] = move;
+  if (!move.allFinite()) {  // it leads nowhere that has an energy
+    record.displacement[vertex].setZero();
+    record.limits[vertex] |= kLimitEnergy;
+    return;
+  }
   const double small = kConvergedMove * problem_.mean_edge_length;
   if (problem_.mobility[vertex] == Mobility::none || move.squaredNorm() > small * small) return;
   record.displacement[vertex].setZero();

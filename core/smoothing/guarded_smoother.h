@@ -40,7 +40,8 @@ class GuardedSmoother : public Smoother {
   /// Vertices that it kept from folding something.
   [[nodiscard]] std::size_t last_folded() const { return last_folded_; }
 
-  /// Sets the proposed move of a vertex: none, and a note in the record, where it is not worth making.
+  /// Sets the proposed move of a vertex: none, and a note in the record, where it is not worth making or not
+  /// finite.
   void set_move(StepRecord& record, Index vertex, const Vec3& move) const;
 
   const SmoothingProblem& problem_;

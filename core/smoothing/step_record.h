@@ -17,7 +17,7 @@ enum Limit : std::uint16_t {
   kLimitRidge = 4,        ///< only along the ridge
   kLimitBoundary = 8,     ///< held or guided by the border of the surface
   kLimitFold = 16,        ///< cut back: a triangle would have folded, or been worse than the worst
-  kLimitEnergy = 32,      ///< cut back: the energy would have risen
+  kLimitEnergy = 32,      ///< cut back: the energy would have risen, or is not finite there
   kLimitSurface = 64,     ///< cut back: too far from the input surface
   kLimitConverged = 128,  ///< asked for no move worth making
 };

@@ -4,6 +4,7 @@
 #include "quality/report.h"
 #include "smoothing/baselines.h"
 #include "smoothing/bounded_run.h"
+#include "smoothing/guarded_smoother.h"
 #include "smoothing/polish.h"
 
 namespace isorelax {
@@ -65,6 +66,50 @@ TEST(Solvers, EveryStepTellsWhatMadeIt) {
   EXPECT_EQ(kinds(*make_angle_based(problem, {}), 2), Kinds{StepKind::angle_based});
   EXPECT_EQ(kinds(*make_polish(problem, {.goal = PolishGoal::both}), 400),
             (Kinds{StepKind::raise_worst, StepKind::raise_mean}));
+}
+
+/// Proposes the same move for every vertex.
+class OneMove : public GuardedSmoother {
+ public:
+  OneMove(const SmoothingProblem& problem, const Vec3& move)
+      : GuardedSmoother(problem, StepKind::jacobi, RecordDetail::vertices), move_(move) {}
+
+ private:
+  double propose(std::span<const Vec3>, const Objective&, StepRecord& record) override {
+    for (Index v = 0; v < problem_.vertex_count(); ++v) {
+      record.gradient[v].setZero();
+      set_move(record, v, problem_.mobility[v] == Mobility::none ? Vec3(Vec3::Zero()) : move_);
+    }
+    return 0;
+  }
+  Vec3 move_;
+};
+
+TEST(Solvers, AMoveThatIsNotFiniteIsNotCalledConverged) {
+  const TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 3, .triangles = 100});
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
+  for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    StepRecord record;
+    OneMove(problem, {x, 0, 0}).step(mesh.positions, record);
+    EXPECT_EQ(record.moved, 0U);
+    for (Index v = 0; v < problem.vertex_count(); ++v) {
+      EXPECT_TRUE(record.displacement[v].isZero(0)) << v;
+      EXPECT_EQ(record.limits[v] & kLimitConverged, 0) << v;
+      EXPECT_EQ((record.limits[v] & kLimitEnergy) != 0, problem.mobility[v] != Mobility::none) << v;
+    }
+  }
+}
+
+TEST(Solvers, LbfgsWithoutMemoryGoesDownhillToo) {
+  TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = 3, .triangles = 200});
+  const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, {});
+  const auto smoother = make_lbfgs(problem, {.memory = 0});
+  StepRecord record;
+  for (int i = 0; i < 10; ++i) {
+    smoother->step(mesh.positions, record);
+    ASSERT_LT(record.after.energy, record.before.energy);
+    apply_step(record, mesh.positions);
+  }
 }
 
 TEST(Solvers, ConvergeToTheSameMinimum) {
