@@ -65,14 +65,16 @@ std::vector<Vec3> tangent_basis(unsigned dimensions, const Vec3& axis) {
   return {first, axis.cross(first)};
 }
 
-void explain_class(const VertexClasses& found, const FeatureOptions& features, VertexExplanation& e) {
+void explain_class(const SmoothingProblem& problem, const FeatureOptions& features, VertexExplanation& e) {
+  const VertexClasses& found = problem.classes;
   const Index v = e.vertex;
   e.tangent_class = found.classes[v];
   e.eigenvalues = found.eigenvalues[v];
   e.spread = {found.spread_deg[v], features.ridge_angle_deg};
   e.angle_defect = {found.angle_defect_deg[v], features.corner_defect_deg};
   e.sharpest_edge = {found.sharpest_edge_deg[v], features.sharp_edge_deg};
-  e.turn = {found.turn_deg[v], features.turn_deg};
+  e.turn = {found.turn_deg[v],
+            problem.topology.is_boundary(v) ? features.boundary_turn_deg : features.turn_deg};
   e.margin_deg = found.margin_deg[v];
 }
 
@@ -159,7 +161,7 @@ VertexExplanation explain_vertex(const SmoothingProblem& problem, const FeatureO
   e.alpha = record.alpha[vertex];
   e.limits = record.limits[vertex];
   e.after = e.before + e.alpha * e.displacement;
-  explain_class(problem.classes, features, e);
+  explain_class(problem, features, e);
   explain_gradient(problem, before, e);
   if (!record.detail) return e;
   e.dimensions = record.detail->dimensions[vertex];

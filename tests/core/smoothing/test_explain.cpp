@@ -68,6 +68,16 @@ TEST(Explain, AWrongSignInOneTermOfTheRecordIsSeen) {
   EXPECT_EQ(check.worst, v);
 }
 
+TEST(Explain, TurnsOfBordersAreComparedWithTheBordersThreshold) {
+  ExplainCase c = explain_cases()[0];
+  c.options.features.boundary_turn_deg = 20;
+  const Explained made = step_of(c);
+  for (Index v = 0; v < made.problem.vertex_count(); ++v) {
+    const auto e = explain_vertex(made.problem, c.options.features, c.mesh.positions, made.record, v);
+    EXPECT_EQ(e.turn.threshold, made.problem.topology.is_boundary(v) ? 20 : 45) << v;
+  }
+}
+
 TEST(Explain, TheTangentBasisHoldsTheProjectedGradientAndTheProposedMove) {
   for (const ExplainCase& c : explain_cases()) {
     SCOPED_TRACE(c.name);
