@@ -68,6 +68,30 @@ TEST(MotionChoices, MistakesNameTheirOption) {
   EXPECT_TRUE(complaint({"preset", "paper", "solver", "newton", "mu", "0.3"}).empty());
 }
 
+TEST(MotionShare, OfOffsetFacesUnderErrorControlIsAStepOfTheWholeMesh) {
+  std::vector<std::string> notes;
+  const MotionSetup setup = set_up_motion(
+      choices_of({"sphere", "200", "field", "paper:0.5", "preset", "paper", "tolerance", "1e-6"}),
+      std::nullopt, notes);
+  ASSERT_EQ(setup.options.integration, Integration::face_offsetting);
+  MovingSurface surface(setup.start, setup.motion, setup.options);
+  surface.advance(setup.until);
+  MovingState state = surface.state();
+  surface.advance(setup.until);
+  const double dt = surface.report().dt;
+  MovingSurfaceOptions plain = setup.options;
+  plain.redistribution = Redistribution::none;
+  MovingSurface alone(setup.start, setup.motion, plain);
+  state.next_step = dt;
+  alone.restore(state, setup.until);
+  alone.advance(setup.until);
+  MotionShare share(setup);
+  for (const Index v : {0U, 57U, 199U}) {
+    const Vec3 moved = share.of(state.positions, surface.state().positions, {1, state.time, dt}, v);
+    EXPECT_LT((state.positions[v] + moved - alone.state().positions[v]).norm(), 1e-15) << v;
+  }
+}
+
 TEST(MotionShare, OfPureAdvectionIsTheWholeStepAndOfOthersTheMotionAlone) {
   for (const char* field : {"paper:0.5", "normal:0.2"}) {
     for (const char* preset : {"none", "paper", "balanced"}) {
