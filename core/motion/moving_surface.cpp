@@ -326,15 +326,16 @@ void MovingSurface::restore(const MovingState& state, double end) {
       throw MeshError("the state's material points are not those of the start");
   if (options_.redistribution == Redistribution::carrier) {
     // The carrier goes its way whatever its points do: it is moved again, from the start.
-    carrier_ = start_;
+    std::vector<Vec3> carrier = start_;
     double time = 0;
     double proposed = options_.step;
     for (std::size_t step = 0; step < state.step; ++step) {
-      time += move(carrier_, time, std::max(end, state.time), step, proposed);
+      time += move(carrier, time, std::max(end, state.time), step, proposed);
       if (!options_.tolerance && time != end) time = static_cast<double>(step + 1) * options_.step;
     }
     if (time != state.time && !(std::abs(time - state.time) <= 1e-9 * options_.step))
       throw MeshError("the state's time is not that of its step: it was made with other steps");
+    carrier_ = std::move(carrier);
     map_->set_carrier(carrier_);
   }
   state_ = state;

@@ -95,7 +95,7 @@ class MovingSurface {
   void advance(double end);
 
   /// Goes on from a state that a surface with the same start, motion and options was in, with the same result
-  /// to the bit. Throws MeshError when it cannot be such a state.
+  /// to the bit. Throws MeshError when it cannot be such a state; the surface is then where it was.
   void restore(const MovingState& state, double end);
 
  private:

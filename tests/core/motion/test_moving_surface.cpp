@@ -98,6 +98,23 @@ TEST(MovingSurface, AResumedRunIsTheStraightOneToTheBit) {
   }
 }
 
+TEST(MovingSurface, AStateThatIsRefusedLeavesTheOneBefore) {
+  const TriangleMesh mesh = paper_sphere(80);
+  const MovingSurfaceOptions options = preset_with_step("balanced", 0.04);
+  MovingSurface straight(mesh, parse_motion("paper:0.5"), options);
+  MovingSurface tried(mesh, parse_motion("paper:0.5"), options);
+  for (int i = 0; i < 3; ++i) {
+    straight.advance(0.5);
+    tried.advance(0.5);
+  }
+  MovingState other = tried.state();
+  other.step = 1;  // the time is that of step 3
+  EXPECT_THROW(tried.restore(other, 0.5), MeshError);
+  straight.advance(0.5);
+  tried.advance(0.5);
+  EXPECT_EQ(straight.state().positions, tried.state().positions);
+}
+
 TEST(MovingSurface, ThreadsDoNotMatter) {
   const TriangleMesh mesh = paper_sphere(1100);
   std::vector<std::vector<Vec3>> results;
