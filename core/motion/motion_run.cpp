@@ -38,10 +38,8 @@ MotionRun::MotionRun(MotionSetup setup, unsigned dense_levels)
       nearest_ = [index](const Vec3& x) { return index->closest(x).point; };
     }
   }
-  const Deviation self =
-      measure_deviation(setup_.start.positions, setup_.start.positions, setup_.start.triangles,
-                        surface_.topology(), setup_.options.threads);
-  encloses_ = self.has_volume;
+  encloses_ = encloses_volume(setup_.start.positions, setup_.start.triangles, surface_.topology(),
+                              setup_.options.threads);
   start_volume_ = enclosed_volume(setup_.start.positions, setup_.start.triangles, setup_.options.threads);
 }
 

@@ -20,16 +20,6 @@ constexpr double kLeastStepShare = 1e-10;
 /// Of the start's bounding box: how far a vertex may go.
 constexpr double kMostDiagonals = 1e9;
 
-double diagonal_of(std::span<const Vec3> x) {
-  Vec3 low = x[0];
-  Vec3 high = x[0];
-  for (const Vec3& p : x) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
-}
-
 /// The corners of each triangle's reference. Throws MeshError, UsageError.
 std::vector<std::array<Vec3, 3>> reference_corners(const ReferenceChoice& choice, std::span<const Vec3> start,
                                                    std::span<const Triangle> triangles) {
@@ -58,8 +48,8 @@ MovingSurface::MovingSurface(const TriangleMesh& start, Motion motion, const Mov
       motion_(std::move(motion)),
       options_(options) {
   check(start);
-  diagonal_ = diagonal_of(start_);
-  closed_ = measure_deviation(start_, start_, triangles_, topology_, options_.threads).has_volume;
+  diagonal_ = bounding_diagonal(start_);
+  closed_ = encloses_volume(start_, triangles_, topology_, options_.threads);
   start_volume_ = enclosed_volume(start_, triangles_, options_.threads);
   if (std::holds_alternative<InitialReference>(options_.reference))
     options_.reference = MeshReference{start_};

@@ -6,6 +6,8 @@
 #include <queue>
 #include <utility>
 
+#include "surface/deviation.h"
+
 namespace isorelax {
 namespace {
 
@@ -40,7 +42,7 @@ class CurvatureField {
     const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
     const double edge = mean_edge();
     std::vector<double> lengths(x_.size(), edge);
-    if (!(mean * extent() > kFlatCurvature)) return lengths;
+    if (!(mean * bounding_diagonal(x_) > kFlatCurvature)) return lengths;
     for (Index v = 0; v < x_.size(); ++v) {
       if (curvature[v] < 0) continue;
       const double ratio = std::sqrt(mean / std::max(curvature[v], 1e-300));
@@ -137,15 +139,6 @@ class CurvatureField {
     for (const Triangle& t : triangles_)
       for (unsigned k = 0; k < 3; ++k) sum += (x_[t[next(k)]] - x_[t[k]]).norm();
     return sum / (3 * static_cast<double>(triangles_.size()));
-  }
-
-  [[nodiscard]] double extent() const {
-    Vec3 low = x_.front(), high = low;
-    for (const Vec3& p : x_) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return (high - low).norm();
   }
 
   std::span<const Vec3> x_;

@@ -95,6 +95,14 @@ double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle
   return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
+bool encloses_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                     const Topology& topology, unsigned threads) {
+  if (!is_closed(topology)) return false;
+  const double diagonal = bounding_diagonal(positions);
+  return std::abs(enclosed_volume(positions, triangles, threads)) >
+         kLeastVolume * diagonal * diagonal * diagonal;
+}
+
 bool faces_inward(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
   const double diagonal = bounding_diagonal(positions);
   const double volume = enclosed_volume(positions, triangles);
@@ -137,9 +145,9 @@ DeviationByTriangle measure_deviation_by_triangle(std::span<const Vec3> original
   const double area = there.area + back.area;
   if (area > 0) result.rms = std::sqrt((there.squares + back.squares) / area) / diagonal;
   result.normal_change_deg = largest_normal_change(original, changed, triangles, threads);
-  const double volume = enclosed_volume(original, triangles, threads);
-  if (is_closed(topology) && std::abs(volume) > kLeastVolume * diagonal * diagonal * diagonal) {
-    result.has_volume = true;
+  result.has_volume = encloses_volume(original, triangles, topology, threads);
+  if (result.has_volume) {
+    const double volume = enclosed_volume(original, triangles, threads);
     result.volume_change = (enclosed_volume(changed, triangles, threads) - volume) / volume;
   }
   return all;

@@ -16,8 +16,7 @@ struct Deviation {
   double rms = 0;  ///< root of the mean squared distance over the area of both, over the same diagonal
   /// (new - old) / old enclosed volume, whichever way the surface faces; 0 where nothing is enclosed.
   double volume_change = 0;
-  /// Whether the surface is closed, consistently oriented and encloses a volume: volume_change means
-  /// something.
+  /// Whether the surface encloses a volume (encloses_volume): volume_change means something.
   bool has_volume = false;
   double normal_change_deg = 0;  ///< largest turn of a triangle's normal, of triangles that have area
   double max_to_original = 0;  ///< largest distance from a point of the new surface to the original, relative
@@ -66,6 +65,11 @@ struct DeviationByTriangle {
 /// theorem about the mean of the vertices. Cubed length units; meaningless for an open surface.
 [[nodiscard]] double enclosed_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                      unsigned threads = 0);
+
+/// Whether the surface is closed, consistently oriented and encloses a volume; not that of a flat one.
+/// `topology` is that of `triangles`.
+[[nodiscard]] bool encloses_volume(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                   const Topology& topology, unsigned threads = 0);
 
 /// Whether the front sides of a surface look into what it encloses: it is closed, or but for holes of less
 /// than a quarter of its area, consistently oriented, and its volume is negative.

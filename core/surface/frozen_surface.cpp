@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/parallel.h"
+#include "surface/deviation.h"
 #include "surface/feature_edges.h"
 #include "surface/fit_samples.h"
 #include "surface/walk.h"
@@ -38,9 +39,8 @@ FrozenSurface::FrozenSurface(std::span<const Vec3> positions, std::span<const Tr
     : x_(positions.begin(), positions.end()),
       triangles_(triangles.begin(), triangles.end()),
       flat_(std::make_shared<ClosestPointIndex>(positions, triangles)) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& x : x_) box.extend(x);
-  if (!x_.empty()) resolution2_ = 1e-26 * box.diagonal().squaredNorm();
+  const double diagonal = bounding_diagonal(x_);
+  resolution2_ = 1e-26 * diagonal * diagonal;
 
   std::vector<Corner> crease_corners;
   std::vector<FeatureCurves::Edge> creases;

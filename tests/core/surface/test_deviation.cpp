@@ -125,6 +125,20 @@ TEST(Deviation, HasNoVolumeChangeForAnOpenSurface) {
   EXPECT_EQ(deviation(mesh, grown).volume_change, 0);
 }
 
+TEST(EnclosesVolume, HoldsForClosedSurfacesThatAreNotFlat) {
+  const auto encloses = [](const TriangleMesh& mesh) {
+    return encloses_volume(mesh.positions, mesh.triangles, Topology(mesh.triangles, mesh.vertex_count()));
+  };
+  TriangleMesh mesh = generate(ShapeKind::cube, {});
+  EXPECT_TRUE(encloses(mesh));
+  TriangleMesh flat = mesh;
+  for (Vec3& x : flat.positions) x.z() = 0;
+  EXPECT_FALSE(encloses(flat));
+  mesh.triangles.pop_back();
+  EXPECT_FALSE(encloses(mesh));
+  EXPECT_FALSE(encloses({}));
+}
+
 /// The same surface with its triangles turned over.
 TriangleMesh turned(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
