@@ -212,7 +212,7 @@ class SmoothCommand : public Command {
     about.input = input_;
     about.arguments = run_.words(mesh);
     about.resources = run_.resources();
-    TraceRecorder recorder(std::move(about), mesh);
+    TraceRecorder recorder(std::move(about), mesh, run_.threads());
     SmoothOutcome outcome = run_.smooth(
         console, input_, mesh,
         [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {

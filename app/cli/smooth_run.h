@@ -44,6 +44,7 @@ class SmoothRun {
   /// The same with their hashes now. Throws InputError.
   [[nodiscard]] std::vector<TraceResource> resources() const;
   void set_threads(unsigned threads) { problem_.threads = threads; }
+  [[nodiscard]] unsigned threads() const { return problem_.threads; }
 
   /// Smooths in place, with progress on the console. `input` names the mesh in errors. Throws InputError,
   /// MeshError, UsageError.

@@ -273,7 +273,7 @@ class TraceCommand : public Command {
     read_words(run, app, trace.arguments);
     if (threads_) run.set_threads(*threads_);
     TriangleMesh mesh{trace.positions, trace.triangles, {}};
-    TraceRecorder recorder({}, mesh);
+    TraceRecorder recorder({}, mesh, run.threads());
     (void)run.smooth(
         console, trace.input, mesh,
         [&](unsigned k, const StepRecord& step, auto positions) {

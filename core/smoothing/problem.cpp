@@ -286,7 +286,7 @@ ReferenceMesh field_reference(std::span<const double> edge_lengths, std::span<co
 }  // namespace
 
 ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
-                             std::span<const Triangle> triangles) {
+                             std::span<const Triangle> triangles, unsigned threads) {
   if (const auto* edge = std::get_if<EdgeLengthReference>(&choice)) {
     return ReferenceMesh::equilateral_edge(edge->edge_length, static_cast<Index>(triangles.size()));
   }
@@ -302,9 +302,9 @@ ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3
     return field_reference(field->edge_lengths, positions, triangles);
   if (const auto* curvature = std::get_if<CurvatureReference>(&choice)) {
     const Topology topology(triangles, static_cast<Index>(positions.size()));
-    return field_reference(
-        curvature_size_field(positions, triangles, topology, {.features = curvature->features}), positions,
-        triangles);
+    return field_reference(curvature_size_field(positions, triangles, topology,
+                                                {.features = curvature->features, .threads = threads}),
+                           positions, triangles);
   }
   return ReferenceMesh::equilateral_mean_area(positions, triangles);
 }
@@ -356,27 +356,28 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
   Topology topology(triangles, static_cast<Index>(positions.size()));
   VertexClasses classes =
       classify_vertices(positions, triangles, topology, options.features, options.threads);
-  SmoothingProblem problem{.triangles = {triangles.begin(), triangles.end()},
-                           .topology = std::move(topology),
-                           .reference = make_reference(options.reference, positions, triangles),
-                           .weights = options.weights,
-                           .exponent = options.exponent.value_or(kDefaultExponent),
-                           .classes = std::move(classes),
-                           .mobility = {},
-                           .fixed_limits = {},
-                           .treated = {},
-                           .border = {},
-                           .plane_normal = {},
-                           .surface = {},
-                           .anchors = {},
-                           .near = {},
-                           .initial_normals = {},
-                           .worst_angles = {},
-                           .numbering = Renumbering(positions, triangles),
-                           .mean_edge_length = 0,
-                           .threads = options.threads,
-                           .notes = {},
-                           .sliding = make_sliding(positions, triangles, options)};
+  SmoothingProblem problem{
+      .triangles = {triangles.begin(), triangles.end()},
+      .topology = std::move(topology),
+      .reference = make_reference(options.reference, positions, triangles, options.threads),
+      .weights = options.weights,
+      .exponent = options.exponent.value_or(kDefaultExponent),
+      .classes = std::move(classes),
+      .mobility = {},
+      .fixed_limits = {},
+      .treated = {},
+      .border = {},
+      .plane_normal = {},
+      .surface = {},
+      .anchors = {},
+      .near = {},
+      .initial_normals = {},
+      .worst_angles = {},
+      .numbering = Renumbering(positions, triangles),
+      .mean_edge_length = 0,
+      .threads = options.threads,
+      .notes = {},
+      .sliding = make_sliding(positions, triangles, options)};
   const bool field = std::holds_alternative<SizeFieldReference>(options.reference) ||
                      std::holds_alternative<CurvatureReference>(options.reference);
   if (field && options.weights.area == 0) {

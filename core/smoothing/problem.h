@@ -59,7 +59,7 @@ using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, Ini
 /// field does not have as many vertices or there is no area, UsageError for an edge length that is not
 /// positive.
 [[nodiscard]] ReferenceMesh make_reference(const ReferenceChoice& choice, std::span<const Vec3> positions,
-                                           std::span<const Triangle> triangles);
+                                           std::span<const Triangle> triangles, unsigned threads = 0);
 
 /// The exponent where none is asked for.
 inline constexpr double kDefaultExponent = 2;
