@@ -19,7 +19,7 @@ Histogram make_histogram(std::span<const double> values, const HistogramRange& r
       ++histogram.below;
     } else if (value > range.high) {
       ++histogram.above;
-    } else {
+    } else if (!std::isnan(value)) {
       const auto bin = static_cast<std::size_t>((value - range.low) * bins_per_unit);
       ++histogram.counts[std::min(bin, range.bins - 1)];
     }

@@ -10,7 +10,7 @@ namespace isorelax {
 
 /// Counts of values in equal bins over [low, high]; a value at `high` falls in the last bin. Values outside
 /// the range (infinite ones too) are counted apart, so that two histograms of one range can be compared bar
-/// by bar.
+/// by bar. What is not a number is counted nowhere.
 struct Histogram {
   double low = 0;
   double high = 0;

@@ -16,6 +16,13 @@ TEST(Histogram, EveryValueIsCountedOnce) {
   EXPECT_EQ(h.above, 2U);
 }
 
+TEST(Histogram, WhatIsNotANumberIsCountedNowhere) {
+  const std::vector<double> values = {std::numeric_limits<double>::quiet_NaN(), 5};
+  const Histogram h = make_histogram(values, {0, 10, 2});
+  EXPECT_EQ(h.counts, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(h.below + h.above, 0U);
+}
+
 TEST(Histogram, RefusesAnEmptyRange) {
   EXPECT_THROW(static_cast<void>(make_histogram({}, {1, 1, 4})), UsageError);
   EXPECT_THROW(static_cast<void>(make_histogram({}, {0, 1, 0})), UsageError);
