@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/degenerate.h"
 #include "mesh/error.h"
 
 namespace isorelax {
@@ -58,7 +59,8 @@ ReferenceMesh ReferenceMesh::of_mesh(std::span<const Vec3> positions, std::span<
   for (Index t = 0; t < reference.count_; ++t) {
     const Triangle& v = triangles[t];
     ReferenceTriangle own = reference_from_points(positions[v[0]], positions[v[1]], positions[v[2]]);
-    if (!std::isfinite(own.cot[0] + own.cot[1] + own.cot[2])) {
+    if (has_no_area(positions[v[0]], positions[v[1]], positions[v[2]]) ||
+        !std::isfinite(own.cot[0] + own.cot[1] + own.cot[2])) {
       own = equilateral_reference(mean);
       reference.replaced_.push_back(t);
     }

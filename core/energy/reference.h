@@ -36,8 +36,8 @@ class ReferenceMesh {
   static ReferenceMesh equilateral_edge(double edge_length, Index triangle_count);
   /// All equilateral, each with its own doubled area > 0.
   static ReferenceMesh equilateral_areas(std::vector<double> doubled_areas);
-  /// Angles and areas of the given triangles themselves. A triangle without area gets the equilateral one of
-  /// mean area; its number is listed in `replaced()`.
+  /// Angles and areas of the given triangles themselves. A triangle without area (has_no_area) gets the
+  /// equilateral one of mean area; its number is listed in `replaced()`.
   static ReferenceMesh of_mesh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
   /// The same with the triangles in another order: `order[0]` first.

@@ -33,6 +33,13 @@ TEST(ReferenceMesh, OfAMeshKeepsAnglesAndAreas) {
   EXPECT_DOUBLE_EQ(r[0].cot[2], 0.5);
 }
 
+TEST(ReferenceMesh, ATriangleAtRoundingErrorIsReplacedToo) {
+  const std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-18, 0}, {0, 1, 0}};
+  const ReferenceMesh r = ReferenceMesh::of_mesh(points, std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}});
+  ASSERT_EQ(r.replaced().size(), 1U);
+  EXPECT_EQ(r.replaced()[0], 0U);
+}
+
 TEST(ReferenceMesh, DegenerateTriangleIsReplacedAndNamed) {
   const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 4, 1}};
   const ReferenceMesh r = ReferenceMesh::of_mesh(kPoints, triangles);
