@@ -21,6 +21,12 @@ std::string state_name(std::size_t step) {
   return "state_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
 }
 
+/// Whole, and small enough for numbers to be told apart.
+bool is_step_number(double number) {
+  constexpr double kMost = 9007199254740992;
+  return number >= 0 && number <= kMost && number == std::floor(number);
+}
+
 /// Of all that a run goes on from.
 std::string checksum_of(const MovingState& state) {
   std::string bytes;
@@ -220,7 +226,8 @@ void MotionSeries::resume_at(std::size_t step) {
       const std::string stem = name.substr(0, name.find('.'));
       const auto number =
           parse_number(std::string_view(stem).substr(std::min(stem.size(), stem.find('_') + 1)));
-      if (!number) throw InputError((folder_ / "states.ply.series").string(), "", name + " names no step");
+      if (!number || !is_step_number(*number))
+        throw InputError((folder_ / "states.ply.series").string(), "", name + " names no step");
       if (*number > static_cast<double>(step)) break;
       items_.push_back({stem, static_cast<std::size_t>(*number), file.at("time").get<double>()});
     }
@@ -241,7 +248,7 @@ MovingState read_state(const std::filesystem::path& path) {
     const auto step = parse_number(word[1]);
     const auto time = parse_number(word[3]);
     const auto next = parse_number(word[5]);
-    if (!step || !time || !next || !(*step >= 0) || word[7].empty())
+    if (!step || !time || !next || !is_step_number(*step) || word[7].empty())
       throw InputError(path.string(), "", "its state comment is damaged");
     state.step = static_cast<std::size_t>(*step);
     state.time = *time;

@@ -136,6 +136,9 @@ TEST(AdvectCommand, DamagedFilesAreToldAndLeftAsTheyAre) {
   const std::size_t first = state.find("end_header\n") + 11;
   state[first] = static_cast<char>(state[first] ^ 1);
   refused_with("state_000002.ply", state);
+  std::string between = contents(folder + "/state_000002.ply");
+  between.replace(between.find(" step 2 "), 8, " step 2.5 ");
+  refused_with("state_000002.ply", between);
   const Outcome sound = run_program("advect --threads 2 --resume " + folder + "/state_000002.ply");
   EXPECT_EQ(sound.status, 0) << sound.err;
   EXPECT_EQ(run_program("advect --step 0.2 --resume " + folder + "/state_000002.ply").status, 2);
