@@ -47,6 +47,19 @@ void add_default_command(std::vector<std::string>& arguments, const Commands& co
   arguments.insert(arguments.begin(), kDefaultCommand);
 }
 
+/// Other programs take a dash for standard input or output; here it would be a file of that name.
+void refuse_dashes(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    const bool alone = word == "-";
+    const bool attached = word == "-o-" || (word.starts_with("--") && word.ends_with("=-"));
+    if (!alone && !attached) continue;
+    const bool has_option = alone && i > 0 && arguments[i - 1].starts_with("-");
+    throw UsageError((has_option ? arguments[i - 1] + " " : "") + word +
+                     ": names no file; standard input is not read, nor is standard output written to");
+  }
+}
+
 /// Runs what the arguments ask for; every failure leaves as an exception.
 int parse_and_run(std::vector<std::string> arguments, Console& console) {
   const Commands commands = all_commands();
@@ -66,6 +79,7 @@ int parse_and_run(std::vector<std::string> arguments, Console& console) {
     command->declare(*sub);
     sub->callback([&status, &console, &command] { status = command->run(console); });
   }
+  refuse_dashes(arguments);
   try {
     add_default_command(arguments, commands);
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back

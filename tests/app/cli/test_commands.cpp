@@ -237,6 +237,24 @@ TEST(Statuses, WrongUsageIsTwo) {
   EXPECT_FALSE(std::filesystem::exists(workspace.path("x.off")));
 }
 
+TEST(Statuses, ADashIsNoFile) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  const std::string out = workspace.path("o.off");
+  for (const auto& [arguments, word] : {std::pair("info -", std::string(" -: ")),
+                                        {"-", " -: "},
+                                        {"smooth - -o x.off", " -: "},
+                                        {"generate cube -o -", "-o -: "},
+                                        {"generate cube -o-", "-o-: "}}) {
+    const Outcome outcome = run_program(arguments);
+    expect_refused(arguments);
+    EXPECT_NE(outcome.err.find(word + "names no file"), std::string::npos) << outcome.err;
+  }
+  for (const char* option : {" --report -", " --report=-", " --trace -", " --pin -"})
+    expect_refused("smooth " + mesh + " -o " + out + option);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(Statuses, InputThatCannotBeReadIsThreeAndNamed) {
   const Workspace workspace;
   const std::string bad = workspace.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n");
