@@ -5,20 +5,26 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "io/mesh_file.h"
 
 namespace isorelax::cli {
 
-/// Check for counts and seeds: a whole number, not under `least`. CLI11 by itself reads "-1" into an unsigned
-/// number without complaint.
-inline CLI::Validator whole_number(std::uint64_t least) {
-  const auto check = [least](const std::string& text) {
+/// Check for counts and seeds: a whole number from `least` to `most`. CLI11 by itself reads "-1" into an
+/// unsigned number without complaint.
+inline CLI::Validator whole_number(std::uint64_t least,
+                                   std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
+  const auto check = [least, most](const std::string& text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool sound = error == std::errc{} && end == text.data() + text.size() && value >= least;
-    return sound ? std::string() : text + " is not a whole number of " + std::to_string(least) + " or more";
+    const bool sound = error == std::errc{} && end == text.data() + text.size();
+    if (sound && value >= least && value <= most) return std::string();
+    return text +
+           (most == std::numeric_limits<std::uint64_t>::max()
+                ? " is not a whole number of " + std::to_string(least) + " or more"
+                : " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   };
   return CLI::Validator(check, "");
 }

@@ -45,7 +45,8 @@ void SmoothRun::declare(CLI::App& app) {
   declare_method(app, method_);
   declare_problem(app, problem_);
   app.add_option("--iterations", run_.iterations, "Largest number of steps before a polish (default 1000)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(whole_number(0, std::numeric_limits<unsigned>::max()));
   app.add_option("--tolerance", run_.tolerance, "Stop threshold (default 1e-6)")
       ->type_name("T")
       ->check(number_between(0, std::numeric_limits<double>::max()));

@@ -15,8 +15,9 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   const Workspace workspace;
   const std::string smooth =
       "smooth " + workspace.write("t.off", kTriangle) + " -o " + workspace.path("o.off");
-  for (const char* option : {" --mu nan", " --tolerance nan", " --tolerance inf", " --relaxation nan",
-                             " --max-deviation nan", " --max-deviation -1", " --max-deviation far"}) {
+  for (const char* option :
+       {" --mu nan", " --tolerance nan", " --tolerance inf", " --relaxation nan", " --max-deviation nan",
+        " --max-deviation -1", " --iterations -3", " --iterations 5000000000", " --max-deviation far"}) {
     const Outcome outcome = run_program(smooth + option);
     EXPECT_EQ(outcome.status, 2) << option;
     expect_one_error_line(outcome);
@@ -24,6 +25,8 @@ TEST(SmoothCommand, RefusesNumbersThatAreNoNumbers) {
   }
   const Outcome word = run_program(smooth + " --max-deviation nan");
   EXPECT_NE(word.err.find("inf, nearest or widest"), std::string::npos) << word.err;
+  const Outcome few = run_program(smooth + " --iterations -3");
+  EXPECT_NE(few.err.find("-3 is not a whole number from 0 to"), std::string::npos) << few.err;
   for (const char* limit : {"inf", "nearest", "widest"})
     EXPECT_EQ(run_program(smooth + " --max-deviation " + limit).status, 0) << limit;
 }
