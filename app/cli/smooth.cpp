@@ -134,6 +134,8 @@ class SmoothCommand : public Command {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
     run_.check();
     watch_.check();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(output_, ignored)) throw OutputError(output_, "is a folder");
     if (!format_of_extension(output_))
       throw UsageError(output_ + ": the extension names no format that is written: " + format_names());
     MeshFile file = read_input_file(console, input_);

@@ -67,6 +67,9 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Tri
                                     const WriteOptions& options) {
   const std::optional<FileFormat> format = options.format ? options.format : format_of_extension(path);
   if (!format) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+      throw OutputError(one_line(path.string()), "is a folder");
     throw UsageError(one_line(path.string()) +
                      ": the extension names no format that is written: " + format_names());
   }

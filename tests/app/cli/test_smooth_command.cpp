@@ -219,6 +219,20 @@ TEST(SmoothCommand, FindsOutBeforeTheWorkThatItCannotWrite) {
   EXPECT_EQ(no_report.status, 4);
   expect_one_error_line(no_report);
   EXPECT_EQ(contents(workspace.path("o.off")), "");
+  for (const std::string& command : {"smooth " + mesh, std::string("generate cube")}) {
+    const Outcome folder = run_program(command + " -o " + workspace.path(""));
+    EXPECT_EQ(folder.status, 4);
+    expect_one_error_line(folder);
+    EXPECT_NE(folder.err.find("is a folder"), std::string::npos) << folder.err;
+  }
+}
+
+TEST(SmoothCommand, CountsOneIterationAsOne) {
+  const Workspace workspace;
+  const std::string square = workspace.path("square.off");
+  ASSERT_EQ(run_program("generate random --triangles 100 -o " + square).status, 0);
+  const Outcome one = run_program("smooth " + square + " -o " + workspace.path("o.off") + " --iterations 1");
+  EXPECT_NE(one.err.find("stopped after 1 iteration: "), std::string::npos) << one.err;
 }
 
 TEST(SmoothCommand, ReplacesNothingThatItReadsOrWrites) {
