@@ -33,14 +33,16 @@ class ViewCommand : public Command {
   void declare(CLI::App& app) override {
     app.add_option("files", files_, "Meshes: " + format_names() + "; or recorded runs (smooth --trace)")
         ->type_name("FILE");
-    app.add_option("--screenshot", screenshot_,
-                   "Draw the editor into this PNG file instead of opening a window")
-        ->type_name("PNG");
+    CLI::Option* const screenshot =
+        app.add_option("--screenshot", screenshot_,
+                       "Draw the editor into this PNG file instead of opening a window")
+            ->type_name("PNG");
     app.add_option("--size", size_, "Size of the window or of the screenshot, in pixels")->type_name("WxH");
     app.add_option("--scale", scale_, "Screenshot: pixels per point, 2 for a high-resolution display")
         ->check(number_between(0.5, 4));
     app.add_option("--after-iterations", iterations_, "Screenshot: smooth this many iterations first")
-        ->type_name("N");
+        ->type_name("N")
+        ->needs(screenshot);
     app.add_option("--frames", frames_, "Window: close after at least N frames, when nothing is left to do")
         ->type_name("N");
     app.add_option("--window-screenshot", window_screenshot_, "Window: write its picture here when it closes")

@@ -285,6 +285,12 @@ TEST(ViewCommand, SaysThatAFileIsMissingBeforeItAsksForADisplay) {
   expect_one_error_line(outcome);
 }
 
+TEST(ViewCommand, RefusesIterationsWithoutAScreenshot) {
+  const Workspace workspace;
+  const std::string mesh = workspace.write("t.off", kTriangle);
+  expect_refused("view " + mesh + " --after-iterations 50");
+}
+
 TEST(TraceCommand, ShowsExportsComparesAndReplaysARun) {
   const Workspace workspace;
   const std::string in = workspace.path("in.off");
