@@ -165,7 +165,8 @@ class SmoothCommand : public Command {
                          ? ", volume change " + number_text(100 * outcome.deviation.volume_change) + " %"
                          : ""));
     console.message("stopped after " + std::to_string(outcome.run.iterations) +
-                    " iterations: " + to_string(outcome.run.stopped, watch_.broken_by()));
+                    (outcome.run.iterations == 1 ? " iteration: " : " iterations: ") +
+                    to_string(outcome.run.stopped, watch_.broken_by()));
     // That it ends by moving nothing is how it always does.
     if (outcome.polish)
       console.message("polished in " + std::to_string(outcome.polish->iterations) + " more" +
