@@ -109,10 +109,12 @@ class TraceCommand : public Command {
   void declare(CLI::App& app) override {
     app.require_subcommand(1);
     show_ = app.add_subcommand("show", "A table of the iterations");
+    show_->footer("Example:\n  isorelax trace show run.trace");
     show_->add_option("TRACE", file_, "Recorded run")->required();
     show_->add_flag("--json", json_, "The same as JSON");
     declare_export(app);
     diff_ = app.add_subcommand("diff", "Where two runs part; exit status 1 when they do");
+    diff_->footer("Example:\n  isorelax trace diff first.trace second.trace");
     diff_->add_option("A", file_, "Recorded run")->required();
     diff_->add_option("B", other_, "Recorded run")->required();
     diff_->add_flag("--json", json_, "As JSON");
@@ -120,6 +122,7 @@ class TraceCommand : public Command {
         "replay",
         "Do the run again and compare every position to the bit; exit status 1 where one differs. What was "
         "broken off or forked in the editor is done again part by part");
+    replay_->footer("Example:\n  isorelax trace replay run.trace");
     replay_->add_option("TRACE", file_, "Recorded run")->required();
     replay_->add_option("--threads", threads_, "Threads (default: all; results do not depend on it)")
         ->type_name("N");
@@ -136,6 +139,8 @@ class TraceCommand : public Command {
  private:
   void declare_export(CLI::App& app) {
     export_ = app.add_subcommand("export", "Numbers and meshes for other programs");
+    export_->footer(
+        "Example:\n  isorelax trace export run.trace --csv run.csv --vtk series --iterations every:10");
     export_->add_option("TRACE", file_, "Recorded run")->required();
     export_->add_option("--csv", csv_, "Numbers of every iteration, a line each")->type_name("FILE");
     export_->add_option("--json", json_file_, "The same with the run's arguments")->type_name("FILE");

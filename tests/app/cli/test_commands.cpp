@@ -373,6 +373,17 @@ TEST(Help, OfEveryCommandHasAnExample) {
   }
 }
 
+TEST(Help, OfAPartOfTraceIsAboutThatPart) {
+  for (const std::string name : {"show", "export", "diff", "replay"}) {
+    const Outcome help = run_program("trace " + name + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_NE(help.out.find("  isorelax trace " + name + " "), std::string::npos) << help.out;
+    EXPECT_EQ(help.out.find("min_angle"), std::string::npos) << help.out;
+    EXPECT_EQ(help.out.find("--break"), std::string::npos) << help.out;
+  }
+  EXPECT_NE(run_program("trace --help").out.find("min_angle"), std::string::npos);
+}
+
 TEST(Help, VersionNamesTheProgram) {
   const Outcome outcome = run_program("--version");
   EXPECT_EQ(outcome.status, 0);
