@@ -115,8 +115,10 @@ class QualityCommand : public Command {
            "                   folded over, that is the surface turns by more than 150 degrees at two edges "
            "or\n"
            "                   more (at the only shared one, if it is one) and the normal opposes the mean\n"
-           "                   normal of the triangles that touch it. Degenerate triangles are not "
-           "counted.\n\n"
+           "                   normal of the triangles that touch it; or part of a patch, bounded by turns "
+           "of\n"
+           "                   more than 120 degrees, that is folded over as a whole. Degenerate triangles\n"
+           "                   are not counted.\n\n"
            "Examples:\n  isorelax quality bunny.off --json --worst 5\n"
            "  isorelax quality smoothed.off --reference original.off";
   }

@@ -86,7 +86,7 @@ class Patches {
 
   bool is_small(Index patch) { return kLargestShare * patch_size_[patch] <= part_size_[parts_.find(patch)]; }
 
-  /// DisjointSets these patches right side up where they have no side yet, and from there all that folds lead
+  /// Sets these patches right side up where they have no side yet, and from there all that folds lead
   /// to.
   void spread(const std::vector<Index>& starts, std::vector<std::uint8_t>& side) const {
     std::vector<Index> waiting;

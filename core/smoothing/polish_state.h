@@ -100,7 +100,8 @@ class PolishGoalSweeps {
   PolishGoalSweeps& operator=(const PolishGoalSweeps&) = delete;
   virtual ~PolishGoalSweeps() = default;
 
-  /// Visits vertices until one has moved. False, with the state as it was, once nothing is left to do.
+  /// Makes the next sweep over the vertices that moves any. False, with the state as it was, once nothing is
+  /// left to do.
   virtual bool sweep(PolishState& state) = 0;
 };
 
