@@ -95,7 +95,6 @@ class AdvectCommand : public Command {
   }
   [[nodiscard]] std::string notes() const override { return kAdvectNotes; }
   void declare(CLI::App& app) override {
-    app_ = &app;
     app.add_option("IN", input_, "Mesh to start from: " + format_names() + "; none: a sphere");
     app.add_option("-o,--output", output_, "Folder to write")->type_name("DIR");
     app.add_option("--resume", resume_,
@@ -337,7 +336,6 @@ class AdvectCommand : public Command {
     }
   }
 
-  CLI::App* app_ = nullptr;
   std::string input_, output_, resume_, figure_, camera_ = "fit";
   MotionSpec motion_;
   std::optional<InterruptWatch> watch_;

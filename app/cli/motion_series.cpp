@@ -1,7 +1,7 @@
 #include "cli/motion_series.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 

@@ -37,7 +37,6 @@ class MotionSeries {
 
   [[nodiscard]] const Json& log() const { return log_; }
   [[nodiscard]] std::vector<std::filesystem::path> states() const;
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   struct Item {

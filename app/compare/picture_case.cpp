@@ -1,6 +1,5 @@
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "compare/case.h"

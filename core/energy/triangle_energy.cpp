@@ -30,24 +30,6 @@ double area_term_curvature(double d1, double d2) {
   return (0.75 * root - 0.25 / root) / (d2 * d2);
 }
 
-Mat3 hessian_block(const std::array<Vec3, 3>& x, unsigned i, const ReferenceTriangle& reference,
-                   EnergyWeights weights, double s_second) {
-  const Geometry g = measure(x);
-  const unsigned j = next(i);
-  const unsigned k = previous(i);
-  const Vec3 u = g.normal.cross(g.l[i]);  // dD2 / dx_i
-  const Vec3 q = 2 * (reference.cot[j] * g.l[j] - reference.cot[k] * g.l[k]);
-  double numerator = 0;  // Q = K D2
-  for (unsigned c = 0; c < 3; ++c) numerator += reference.cot[c] * g.edge_squared[c];
-  const double d = g.d2;
-  const Mat3 plane = Mat3::Identity() - g.normal * g.normal.transpose();
-  Mat3 h = weights.shape * (2 * (reference.cot[j] + reference.cot[k]) / d * plane -
-                            (q * u.transpose() + u * q.transpose()) / (d * d) +
-                            2 * numerator / (d * d * d) * (u * u.transpose()));
-  h += weights.area * s_second * (u * u.transpose());
-  return h;
-}
-
 }  // namespace
 
 TriangleEnergy evaluate_energy(const std::array<Vec3, 3>& x, const ReferenceTriangle& reference,
@@ -68,16 +50,23 @@ std::array<Vec3, 3> energy_gradient(const std::array<Vec3, 3>& x, const Referenc
   return gradient;
 }
 
-Mat3 energy_hessian_block(const std::array<Vec3, 3>& x, unsigned i, const ReferenceTriangle& reference,
-                          EnergyWeights weights) {
-  // S depends on x_i through D2 alone, and D2 is linear in x_i within the plane; the shape term is Q / D2.
-  return hessian_block(x, i, reference, weights, area_term_curvature(reference.d1, measure(x).d2));
-}
-
 Mat3 energy_hessian_block_psd(const std::array<Vec3, 3>& x, unsigned i, const ReferenceTriangle& reference,
                               EnergyWeights weights) {
-  return hessian_block(x, i, reference, weights,
-                       std::max(0.0, area_term_curvature(reference.d1, measure(x).d2)));
+  const Geometry g = measure(x);
+  const unsigned j = next(i);
+  const unsigned k = previous(i);
+  const Vec3 u = g.normal.cross(g.l[i]);  // dD2 / dx_i
+  const Vec3 q = 2 * (reference.cot[j] * g.l[j] - reference.cot[k] * g.l[k]);
+  double numerator = 0;  // Q = K D2
+  for (unsigned c = 0; c < 3; ++c) numerator += reference.cot[c] * g.edge_squared[c];
+  const double d = g.d2;
+  const Mat3 plane = Mat3::Identity() - g.normal * g.normal.transpose();
+  Mat3 h = weights.shape * (2 * (reference.cot[j] + reference.cot[k]) / d * plane -
+                            (q * u.transpose() + u * q.transpose()) / (d * d) +
+                            2 * numerator / (d * d * d) * (u * u.transpose()));
+  // S depends on x_i through D2 alone, and D2 is linear in x_i within the plane; the shape term is Q / D2.
+  h += weights.area * std::max(0.0, area_term_curvature(reference.d1, d)) * (u * u.transpose());
+  return h;
 }
 
 }  // namespace isorelax

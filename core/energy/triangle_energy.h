@@ -51,24 +51,6 @@ inline TriangleEnergy triangle_energy(const std::array<double, 3>& edge_squared,
   return e;
 }
 
-/// The same for an equilateral reference with doubled area 1 / inverse_d1: s is s_k at every corner.
-struct EquilateralEnergy {
-  double shape = 0, area = 0, energy = 0, s = 0, t = 0;
-};
-inline EquilateralEnergy equilateral_energy(double edge_squared_sum, double d2, double inverse_d1,
-                                            EnergyWeights weights) {
-  EquilateralEnergy e;
-  const double inverse = 1 / d2;
-  e.shape = kEquilateralCot * edge_squared_sum * inverse;
-  const double root = std::sqrt(d2 * inverse_d1);
-  const double inverse_root = 1 / root;
-  e.area = root + inverse_root;
-  e.energy = weights.shape * e.shape + weights.area * e.area;
-  e.s = 2 * kEquilateralCot * weights.shape * inverse;
-  e.t = inverse * (0.5 * weights.area * (root - inverse_root) - weights.shape * e.shape);
-  return e;
-}
-
 /// Energy of triangle (x[0], x[1], x[2]) in space. Precondition: it has area.
 TriangleEnergy evaluate_energy(const std::array<Vec3, 3>& x, const ReferenceTriangle& reference,
                                EnergyWeights weights);
@@ -78,13 +60,9 @@ TriangleEnergy evaluate_energy(const std::array<Vec3, 3>& x, const ReferenceTria
 std::array<Vec3, 3> energy_gradient(const std::array<Vec3, 3>& x, const ReferenceTriangle& reference,
                                     EnergyWeights weights);
 
-/// Exact second derivative of E with respect to corner `i` alone, for moves in the triangle's plane (3 x 3,
-/// symmetric, the plane's normal is in its kernel). Positive semi-definite for D2 < 3 D1 or w_a = 0.
-Mat3 energy_hessian_block(const std::array<Vec3, 3>& x, unsigned i, const ReferenceTriangle& reference,
-                          EnergyWeights weights);
-
-/// The same with the area term's second derivative clamped at zero, so that the block is positive
-/// semi-definite everywhere: what Newton steps are made of (method Sec. 3).
+/// Second derivative of E with respect to corner `i` alone, for moves in the triangle's plane (3 x 3,
+/// symmetric, the plane's normal is in its kernel), with the area term's clamped at zero: exact for D2 < 3 D1
+/// or w_a = 0, and positive semi-definite everywhere. What Newton steps are made of (method Sec. 3).
 Mat3 energy_hessian_block_psd(const std::array<Vec3, 3>& x, unsigned i, const ReferenceTriangle& reference,
                               EnergyWeights weights);
 

@@ -1,7 +1,6 @@
 #include "io/ply_columns.h"
 
 #include <algorithm>
-#include <array>
 
 namespace isorelax {
 namespace {

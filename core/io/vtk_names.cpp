@@ -1,7 +1,6 @@
 #include "io/vtk_names.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdint>

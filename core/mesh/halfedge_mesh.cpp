@@ -3,7 +3,6 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
-#include <algorithm>
 
 namespace isorelax {
 namespace {
@@ -11,7 +10,6 @@ namespace {
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
-  // Deleted elements are only marked: ids stay.
   VertexAttributes(OpenMesh::Attributes::Status);
   EdgeAttributes(OpenMesh::Attributes::Status);
   FaceAttributes(OpenMesh::Attributes::Status);
@@ -24,17 +22,11 @@ OpenMesh::VertexHandle handle_of(Index vertex) {
   return OpenMesh::VertexHandle(static_cast<int>(vertex));
 }
 
-Index id_of(OpenMesh::VertexHandle handle) {
-  return static_cast<Index>(handle.idx());
-}
-
 }  // namespace
 
 struct HalfedgeMesh::Impl {
   Mesh mesh;
   std::vector<Index> rejected;
-  /// By triangle id; invalid where rejected.
-  std::vector<OpenMesh::FaceHandle> faces;
 };
 
 HalfedgeMesh::HalfedgeMesh(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>()) {
@@ -46,7 +38,6 @@ HalfedgeMesh::HalfedgeMesh(const TriangleMesh& mesh) : impl_(std::make_unique<Im
     OpenMesh::FaceHandle face;
     if (a != b && b != c && c != a) face = impl_->mesh.add_face(handle_of(a), handle_of(b), handle_of(c));
     if (!face.is_valid()) impl_->rejected.push_back(t);
-    impl_->faces.push_back(face);
   }
 }
 
@@ -56,59 +47,6 @@ HalfedgeMesh& HalfedgeMesh::operator=(HalfedgeMesh&& other) noexcept = default;
 
 std::span<const Index> HalfedgeMesh::rejected_triangles() const {
   return impl_->rejected;
-}
-
-std::size_t HalfedgeMesh::edge_count() const {
-  const auto edges = impl_->mesh.edges();  // deleted ones are skipped
-  return static_cast<std::size_t>(std::distance(edges.begin(), edges.end()));
-}
-
-std::vector<Index> HalfedgeMesh::one_ring(Index vertex) const {
-  const Mesh& mesh = impl_->mesh;
-  std::vector<Index> ring;
-  for (const auto neighbour : mesh.vv_ccw_range(handle_of(vertex))) ring.push_back(id_of(neighbour));
-  if (ring.empty() || !mesh.is_boundary(handle_of(vertex))) return ring;
-  // OpenMesh starts with the half-edge that has no triangle: counter-clockwise that is the fan's end.
-  const auto first = mesh.to_vertex_handle(mesh.halfedge_handle(handle_of(vertex)));
-  const auto last = std::find(ring.begin(), ring.end(), id_of(first));
-  std::rotate(ring.begin(), last + 1, ring.end());
-  return ring;
-}
-
-std::vector<std::vector<Index>> HalfedgeMesh::boundary_loops() const {
-  const Mesh& mesh = impl_->mesh;
-  std::vector<std::vector<Index>> loops;
-  std::vector<bool> visited(mesh.n_halfedges(), false);
-  for (const auto start : mesh.halfedges()) {
-    if (!mesh.is_boundary(start) || visited[static_cast<std::size_t>(start.idx())]) continue;
-    std::vector<Index> loop;
-    OpenMesh::HalfedgeHandle at = start;
-    do {
-      visited[static_cast<std::size_t>(at.idx())] = true;
-      loop.push_back(id_of(mesh.to_vertex_handle(at)));
-      at = mesh.next_halfedge_handle(at);
-    } while (at != start);
-    std::reverse(loop.begin(), loop.end());  // half-edges without a triangle have the surface to the right
-    loops.push_back(std::move(loop));
-  }
-  return loops;
-}
-
-bool HalfedgeMesh::flip_edge(Index a, Index b) {
-  Mesh& mesh = impl_->mesh;
-  const auto side = mesh.find_halfedge(handle_of(a), handle_of(b));
-  if (!side.is_valid()) return false;
-  const auto edge = mesh.edge_handle(side);
-  if (!mesh.is_flip_ok(edge)) return false;
-  mesh.flip(edge);
-  return true;
-}
-
-bool HalfedgeMesh::remove_triangle(Index triangle) {
-  const OpenMesh::FaceHandle face = impl_->faces[triangle];
-  if (!face.is_valid() || impl_->mesh.status(face).deleted()) return false;
-  impl_->mesh.delete_face(face, false);
-  return true;
 }
 
 void HalfedgeMesh::smooth_laplace(unsigned iterations) {
@@ -132,18 +70,6 @@ std::vector<Vec3> HalfedgeMesh::positions() const {
     positions.emplace_back(p[0], p[1], p[2]);
   }
   return positions;
-}
-
-std::vector<Triangle> HalfedgeMesh::triangles() const {
-  std::vector<Triangle> triangles;
-  for (const OpenMesh::FaceHandle face : impl_->faces) {
-    if (!face.is_valid() || impl_->mesh.status(face).deleted()) continue;
-    Triangle t{};
-    std::size_t k = 0;
-    for (const auto vertex : impl_->mesh.fv_ccw_range(face)) t[k++] = id_of(vertex);
-    triangles.push_back(t);
-  }
-  return triangles;
 }
 
 }  // namespace isorelax

@@ -114,10 +114,6 @@ void MovingSurface::make_carrier(const TriangleMesh& start) {
     balance_ = std::make_unique<VolumeBalance>(triangles_, topology_, options_.threads);
 }
 
-std::size_t MovingSurface::held_count() const {
-  return static_cast<std::size_t>(std::ranges::count(always_held_, 1));
-}
-
 double MovingSurface::next_dt(double time, std::size_t step, double proposed, double end) const {
   // Fixed steps stand on a grid, so that no rounding gathers.
   constexpr double kRounding = 1e-9;

@@ -87,8 +87,6 @@ class MovingSurface {
   [[nodiscard]] const MovingReport& report() const { return report_; }
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   [[nodiscard]] const Topology& topology() const { return topology_; }
-  /// Vertices that the carrier family holds: on creases, corners and borders.
-  [[nodiscard]] std::size_t held_count() const;
 
   /// One step, not beyond `end`. Throws MotionError, which names the time and the vertex; the state is then
   /// the one before. Precondition: state().time < end.

@@ -92,11 +92,6 @@ std::optional<FaceMetric> metric_by_name(std::string_view name) {
   return std::nullopt;
 }
 
-bool larger_is_worse(FaceMetric metric) {
-  return metric != FaceMetric::min_angle && metric != FaceMetric::radius_ratio &&
-         metric != FaceMetric::scaled_jacobian;
-}
-
 std::vector<Vec3> resized_if_extreme(std::span<const Vec3> positions) {
   double largest = 0;
   for (const Vec3& p : positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());

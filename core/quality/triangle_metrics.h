@@ -55,9 +55,6 @@ enum class FaceMetric {
 [[nodiscard]] std::string_view metric_name(FaceMetric metric);
 [[nodiscard]] std::optional<FaceMetric> metric_by_name(std::string_view name);
 
-/// Whether a triangle with a larger value is the worse one (max angle, shape, aspect ratio; areas: larger).
-[[nodiscard]] bool larger_is_worse(FaceMetric metric);
-
 /// Where fourth powers of lengths would leave the range of double, the positions at another size: a power of
 /// two changes no digit of what is free of units. Else nothing.
 [[nodiscard]] std::vector<Vec3> resized_if_extreme(std::span<const Vec3> positions);

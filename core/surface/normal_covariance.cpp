@@ -89,10 +89,4 @@ std::array<Vec3, kLanes> dominant_eigenvectors(const CovarianceBatch& m) {
   return vectors;
 }
 
-Vec3 dominant_eigenvector(const SymmetricMatrix& covariance) {
-  CovarianceBatch batch{};
-  batch.set(0, covariance);
-  return dominant_eigenvectors(batch)[0];
-}
-
 }  // namespace isorelax

@@ -57,7 +57,4 @@ struct CovarianceBatch {
 /// are arbitrary.
 std::array<Vec3, kLanes> dominant_eigenvectors(const CovarianceBatch& batch);
 
-/// The same for one matrix, with the same bits.
-Vec3 dominant_eigenvector(const SymmetricMatrix& covariance);
-
 }  // namespace isorelax

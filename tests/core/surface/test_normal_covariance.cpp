@@ -13,6 +13,12 @@ SymmetricMatrix sum_of(std::initializer_list<Vec3> normals) {
   return m;
 }
 
+Vec3 dominant_eigenvector(const SymmetricMatrix& covariance) {
+  CovarianceBatch batch{};
+  batch.set(0, covariance);
+  return dominant_eigenvectors(batch)[0];
+}
+
 TEST(DominantEigenvector, OfAPlaneIsExactlyItsNormal) {
   const Vec3 n = dominant_eigenvector(sum_of({{0, 0, 0.3}, {0, 0, 1.7}}));
   EXPECT_EQ(n.cwiseAbs(), Vec3(0, 0, 1));
