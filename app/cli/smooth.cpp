@@ -21,9 +21,6 @@
 namespace isorelax::cli {
 namespace {
 
-constexpr std::array kLimits = {kLimitPinned, kLimitCorner, kLimitRidge,   kLimitBoundary,
-                                kLimitFold,   kLimitEnergy, kLimitSurface, kLimitConverged};
-
 /// `broken_by`: the predicate that ended the run, if one did.
 Json outcome_to_json(const SmoothOutcome& outcome, const std::string& broken_by) {
   Json object;
@@ -48,8 +45,8 @@ Json outcome_to_json(const SmoothOutcome& outcome, const std::string& broken_by)
   object["relative_energy_change"] = outcome.run.energy_change;
   object["relative_move"] = outcome.run.relative_move;
   Json limited;
-  for (std::size_t bit = 0; bit < kLimits.size(); ++bit)
-    limited[std::string(limit_name(kLimits[bit]))] = outcome.limits[bit];
+  for (std::size_t bit = 0; bit < kLimitBits; ++bit)
+    limited[std::string(limit_name(static_cast<Limit>(1U << bit)))] = outcome.limits[bit];
   object["limited_in_last_step"] = std::move(limited);
   object["turned_over"] = outcome.turned_over.size();
   if (outcome.polish) {

@@ -48,8 +48,8 @@ std::size_t bytes_of(const StepRecord& r) {
   return bytes;
 }
 
-std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> all) {
-  std::array<std::size_t, 8> counts{};
+std::array<std::size_t, kLimitBits> count_limits(std::span<const std::uint16_t> all) {
+  std::array<std::size_t, kLimitBits> counts{};
   for (const std::uint16_t limits : all) {
     for (unsigned bit = 0; bit < counts.size(); ++bit) counts[bit] += (limits >> bit) & 1U;
   }

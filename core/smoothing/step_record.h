@@ -21,6 +21,7 @@ enum Limit : std::uint16_t {
   kLimitSurface = 64,     ///< cut back: too far from the input surface
   kLimitConverged = 128,  ///< asked for no move worth making
 };
+inline constexpr std::size_t kLimitBits = 8;
 
 /// What made a step. Written to traces: new ones come last.
 enum class StepKind : std::uint8_t {
@@ -111,7 +112,7 @@ void note_cut(StepRecord& record, Index vertex, Index triangle);
 [[nodiscard]] std::size_t bytes_of(const StepRecord& record);
 
 /// How many vertices are limited by each bit, in bit order.
-std::array<std::size_t, 8> count_limits(std::span<const std::uint16_t> limits);
+std::array<std::size_t, kLimitBits> count_limits(std::span<const std::uint16_t> limits);
 
 /// Name of one bit of Limit for people: "pinned", "corner", ...
 std::string_view limit_name(Limit limit);

@@ -32,7 +32,7 @@ struct TraceIteration {
   std::size_t energy_passes = 0;
   std::size_t moved = 0;
   /// Vertices limited by each bit of Limit, in bit order.
-  std::array<std::size_t, 8> limits{};
+  std::array<std::size_t, kLimitBits> limits{};
   /// Vertices whose tangent class is another one than in the step before.
   std::size_t class_changes = 0;
   TraceQuality quality;
