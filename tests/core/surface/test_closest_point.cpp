@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <limits>
 #include <random>
 
@@ -163,30 +161,6 @@ TEST(ClosestPointIndex, WithoutTrianglesOrForNotANumberFindsNothing) {
   const TriangleMesh mesh = generate(ShapeKind::cube, {});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(ClosestPointIndex(mesh.positions, mesh.triangles).closest({nan, 0, 0}, 5).triangle, kNone);
-}
-
-TEST(ClosestPointIndex, PrintsItsSpeed) {
-  const auto seconds = [](std::clock_t from) {  // of the processor: others may be using it too
-    return static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
-  };
-  const TriangleMesh mesh = with_triangles(ShapeKind::torus, 100'000);
-  std::clock_t start = std::clock();
-  const ClosestPointIndex index(mesh.positions, mesh.triangles);
-  const double build = seconds(start);
-  std::mt19937 random(4);
-  std::vector<Vec3> points;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 centroid = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
-    points.emplace_back(centroid + random_point(random, 1e-3));
-  }
-  start = std::clock();
-  double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    sum += index.closest(points[i], static_cast<Index>(i)).distance;
-  const double query = seconds(start);
-  std::printf("%zu triangles: build %.0f ns a triangle, query %.0f ns (mean distance %.1e)\n", points.size(),
-              build * 1e9 / static_cast<double>(points.size()),
-              query * 1e9 / static_cast<double>(points.size()), sum / static_cast<double>(points.size()));
 }
 
 }  // namespace

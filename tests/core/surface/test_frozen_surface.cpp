@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <random>
 
 #include "core/surface/shapes.h"
@@ -306,26 +305,6 @@ TEST(FrozenSurface, AcceptsFlawedMeshes) {
     EXPECT_TRUE(f.project(v, flawed.positions[v] + Vec3(0.1, 0.2, 0.3)).point.allFinite());
   EXPECT_EQ(f.surface.anchor(5).triangle, kNone);
   EXPECT_EQ(Frozen(TriangleMesh()).surface.closest({0, 0, 0}).triangle, kNone);
-}
-
-TEST(FrozenSurface, PrintsItsSpeed) {
-  const TriangleMesh mesh = with_vertices(ShapeKind::random_sphere, 30'000);
-  const Topology topology(mesh.triangles, mesh.vertex_count());
-  const VertexClasses classes =
-      classify_vertices(mesh.positions, mesh.triangles, topology, FeatureOptions::none(), 1);
-  const double vertices = mesh.vertex_count();
-  std::clock_t start = std::clock();
-  const FrozenSurface surface(mesh.positions, mesh.triangles, topology, classes, 1);
-  const double setup = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  start = std::clock();
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 target = 0.6 * mesh.positions[t[0]] + 0.4 * mesh.positions[t[1]];
-    sum += surface.project(target, VertexClass::smooth, surface.anchor(t[0])).point.x();
-  }
-  const double query = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("set-up %.1f us a vertex, projection %.0f ns (%g)\n", setup * 1e6 / vertices,
-              query * 1e9 / static_cast<double>(mesh.triangles.size()), sum);
 }
 
 }  // namespace
