@@ -46,6 +46,7 @@ void Editor::frame(const FrameOptions& options) {
   double drawing = 0;
   const double elapsed = std::clamp(options.time - time_, 1e-3, 0.25);
   time_ = options.time;
+  display_ = options.size;
   scale_ = options.scale;
   acted_ = false;
   model::execute(session_, model::Collect{});

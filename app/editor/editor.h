@@ -46,8 +46,8 @@ class Editor {
   void look(const std::string& spec);
   /// Whether the selected vertex or triangle is in the picture and nothing hides it.
   [[nodiscard]] bool sees_selection();
-  /// What was done so far, as a script (script.h).
-  [[nodiscard]] std::string script() const { return log_.text(camera_, interface_.state()); }
+  /// What was done so far, as a script (script.h), in an editor as large as in the last frame.
+  [[nodiscard]] std::string script() const;
 
   /// Whether another frame would look different without any new input.
   [[nodiscard]] bool is_restless() const;
@@ -148,6 +148,7 @@ class Editor {
   std::optional<render::Camera> framed_alone_;      ///< as it was before there were several, or a change
   model::DocumentPtr shown_document_;
   render::PictureSize viewport_;
+  render::PictureSize display_{1280, 720};
   float scale_ = 1;
   double time_ = 0;
   bool acted_ = false;

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <cmath>
 #include <utility>
 
 #include "editor/editor.h"
@@ -11,6 +12,14 @@
 #include "view/picture.h"
 
 namespace isorelax::editor {
+
+// Scripts are played at a pixel per point: so large, what is in it stands where it stood.
+std::string Editor::script() const {
+  const auto points = [this](int pixels) { return std::lround(static_cast<float>(pixels) / scale_); };
+  const std::string size =
+      "size " + std::to_string(points(display_.width)) + "x" + std::to_string(points(display_.height));
+  return log_.text(size, camera_, interface_.state());
+}
 
 void Editor::save_script(const std::filesystem::path& path) {
   try {

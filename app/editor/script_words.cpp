@@ -169,8 +169,11 @@ struct ToLine {
   std::string operator()(const model::Collect&) const { return {}; }
 
  private:
+  // Whole: a script takes other names from its own folder, wherever that is.
   static std::string path_line(const char* word, const std::filesystem::path& path) {
-    return word + quote_word(path.string());
+    std::error_code error;
+    const auto whole = std::filesystem::absolute(path, error);
+    return word + quote_word((error ? path : whole).string());
   }
 };
 

@@ -90,10 +90,12 @@ void SessionLog::follow(const model::Session& session) {
     lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(run_at_), word + std::to_string(at - from));
 }
 
-std::string SessionLog::text(const render::Camera& camera, const ui::UiState& state) const {
+std::string SessionLog::text(const std::string& size, const render::Camera& camera,
+                             const ui::UiState& state) const {
   SessionLog ended = *this;
   ended.note_looks(looks_of(camera, state));
   std::string text = "# What was done in the editor of Isorelax. isorelax script FILE does it again.\n";
+  text += size + "\n";
   for (const std::string& line : ended.lines_) text += line + "\n";
   return text + "screenshot end.png\n";
 }

@@ -19,8 +19,9 @@ class SessionLog {
             const ui::UiState& state);
   /// A run is written down when it has ended, by the iterations that it made: so a paused one comes back.
   void follow(const model::Session& session);
-  /// The script so far, with the view at its end.
-  [[nodiscard]] std::string text(const render::Camera& camera, const ui::UiState& state) const;
+  /// The script so far, with the line that sizes the editor at its beginning and the view at its end.
+  [[nodiscard]] std::string text(const std::string& size, const render::Camera& camera,
+                                 const ui::UiState& state) const;
 
  private:
   struct Looks {

@@ -266,7 +266,7 @@ void run_window(const WindowOptions& options) {
   auto recent = load_recent_files();
   if (options.files.size() > 1) recent.insert(recent.begin(), options.files.begin() + 1, options.files.end());
   model::execute(session, model::SetRecent{recent});
-  if (!options.files.empty()) model::execute(session, model::OpenFile{options.files.front()});
+  if (!options.files.empty()) editor.act(model::OpenFile{options.files.front()});
   run_frames(window.get(), editor, host, options);
   session.engine.set_wake({});
   if (!options.frames) save_recent_files(session.recent);

@@ -205,6 +205,19 @@ TEST_F(ScriptTest, WhatWasDoneByHandIsWrittenDownAndDoneAgain) {
   EXPECT_TRUE(theirs == mine) << script;
 }
 
+TEST_F(ScriptTest, AScriptThatWasWrittenDownBeginsWithTheSizeAndTheWholeNameOfTheMesh) {
+  const std::filesystem::path file = std::filesystem::relative(folder.make_square());
+  ASSERT_TRUE(file.is_relative());
+  editor.act(model::OpenFile{file});
+  settle();
+  editor.frame({.size = {1600, 1000}, .scale = 2, .time = time += tick});
+  const std::string script = editor.script();
+  EXPECT_NE(script.find("\nsize 800x500\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("\nopen " + (folder / "square.off").string() + "\n"), std::string::npos) << script;
+  EXPECT_LT(script.find("\nsize "), script.find("\nopen ")) << script;
+  EXPECT_TRUE(play(script, "far.script").failures.empty());
+}
+
 TEST(ScriptWords, QuotesAndCommentsAreUnderstood) {
   EXPECT_EQ(split_words("  open 'a b.off'  # c"), (std::vector<std::string>{"open", "a b.off"}));
   EXPECT_EQ(split_words("a\"b c\"d"), (std::vector<std::string>{"ab cd"}));
