@@ -20,7 +20,9 @@ constexpr std::array kModelWords{
     ScriptWord{"save FILE", "the mesh as it is shown"},
     ScriptWord{"save-trace FILE", "the present run"},
     ScriptWord{"add-trace FILE", "a recorded run beside those that are there"},
-    ScriptWord{"set OPTION VALUE ...", "settings, as for isorelax smooth: set --mu 0.5 --solver newton"},
+    ScriptWord{"set [defaults] OPTION VALUE ...",
+               "settings, as for isorelax smooth: set --mu 0.5 --solver newton; what is not named stays, or "
+               "is as by default"},
     ScriptWord{"run [N]", "as many iterations as set, or N"},
     ScriptWord{"step, step-back", "one iteration on; one back"},
     ScriptWord{"seek ITERATION [RUN]", "on the timeline; runs count from 0"},
@@ -98,6 +100,17 @@ std::string stage_line(const model::SetStage& command) {
   return line;
 }
 
+/// All of them, whatever was set before; those, too, that the method has no use for but the colours may.
+std::string settings_line(const model::SmoothingSettings& settings) {
+  std::string line = "set defaults";
+  if (settings.method != model::Method::near_isometry)
+    line += " --method " + std::string(model::method_option(settings.method));
+  model::SmoothingSettings others = settings;
+  others.method = model::Method::near_isometry;
+  for (const std::string& word : model::to_words(others)) line += " " + quote_word(word);
+  return line;
+}
+
 std::string list_line(std::string line, const std::vector<unsigned>& numbers) {
   for (const unsigned n : numbers) line += " " + std::to_string(n);
   return line;
@@ -110,11 +123,7 @@ struct ToLine {
   std::string operator()(const model::SaveFile& c) const { return path_line("save ", c.path); }
   std::string operator()(const model::SaveTrace& c) const { return path_line("save-trace ", c.path); }
   std::string operator()(const model::AddTrace& c) const { return path_line("add-trace ", c.path); }
-  std::string operator()(const model::SetSmoothing& c) const {
-    std::string line = "set";
-    for (const std::string& word : model::to_words(c.settings)) line += " " + quote_word(word);
-    return line;
-  }
+  std::string operator()(const model::SetSmoothing& c) const { return settings_line(c.settings); }
   std::string operator()(const model::SetView& c) const { return editor::to_line(c); }
   std::string operator()(const model::Run&) const { return "run"; }
   std::string operator()(const model::Step&) const { return "step"; }
@@ -224,8 +233,10 @@ model::Command of_triangle(Words words, const model::Session& session) {
 
 model::Command to_settings(Words words, const model::Session& session) {
   std::vector<std::string> unknown;
+  const bool anew = words.size() > 1 && words[1] == "defaults";
+  const model::SmoothingSettings others = anew ? model::SmoothingSettings{} : session.smoothing;
   const model::SmoothingSettings settings =
-      model::nearest_settings(words.subspan(1), session.smoothing, unknown);
+      model::nearest_settings(words.subspan(anew ? 2 : 1), others, unknown);
   if (!unknown.empty())
     throw UsageError("set: \"" + unknown.front() + "\": no setting of the editor, or no value for it");
   return model::SetSmoothing{settings, "Settings"};

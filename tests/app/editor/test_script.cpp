@@ -205,6 +205,27 @@ TEST_F(ScriptTest, WhatWasDoneByHandIsWrittenDownAndDoneAgain) {
   EXPECT_TRUE(theirs == mine) << script;
 }
 
+TEST_F(ScriptTest, SettingsAreWrittenDownWhateverWasSetBefore) {
+  model::Session session;
+  session.smoothing.method = model::Method::laplacian;
+  session.smoothing.polish = model::Polish::both;
+  session.smoothing.pinned = {3, 5};
+  session.smoothing.mu_a = 0.5;
+  model::SmoothingSettings other;
+  other.method = model::Method::angle_based;
+  other.mu_a = 0.25;  // the energy is measured with it
+  other.iterations = 7;
+  for (const model::SmoothingSettings& settings : {model::SmoothingSettings{}, other}) {
+    const std::string line = to_line(model::SetSmoothing{settings, ""});
+    const auto read = parse_line(split_words(line), session, {});
+    ASSERT_TRUE(read) << line;
+    EXPECT_EQ(std::get<model::SetSmoothing>(*read).settings, settings) << line;
+  }
+  // One that a person writes changes only what it names.
+  const auto part = parse_line(split_words("set --mu 1"), session, {});
+  EXPECT_EQ(std::get<model::SetSmoothing>(*part).settings.pinned, session.smoothing.pinned);
+}
+
 TEST_F(ScriptTest, AScriptThatWasWrittenDownBeginsWithTheSizeAndTheWholeNameOfTheMesh) {
   const std::filesystem::path file = std::filesystem::relative(folder.make_square());
   ASSERT_TRUE(file.is_relative());
