@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "trace/predicate_names.h"
 #include "ui/panels.h"
@@ -133,6 +134,8 @@ void draw_new_breakpoint(const Ui& ui) {
   std::array<char, 256> buffer{};
   typing.predicate.copy(buffer.data(), buffer.size() - 1);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ui.px(62));
+  // What was refused is still typed at; else the next letters would be shortcuts.
+  if (std::exchange(typing.refused, false)) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputTextWithHint("##predicate", "min_angle < 5", buffer.data(), buffer.size(),
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   typing.predicate = buffer.data();
@@ -146,6 +149,7 @@ void draw_new_breakpoint(const Ui& ui) {
   if (!made.predicate) {
     draw_mistake(ui, made.text, made.mistake_column, made.mistake);
     mark_area(ui, "mistake", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+    typing.refused = entered || added;
     return;
   }
   if (!entered && !added) return;

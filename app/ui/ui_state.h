@@ -153,7 +153,8 @@ struct Typing {
   bool triangle = false;                                    ///< the id is that of a triangle
   std::optional<Index> selected_vertex, selected_triangle;  ///< when it was last followed
   std::string predicate;
-  bool logs = false;  ///< the predicate tells instead of stopping
+  bool refused = false;  ///< the predicate that was entered cannot be read: its field gets the keyboard
+  bool logs = false;     ///< the predicate tells instead of stopping
   int compare_with = 0;
   bool exponent = false, tolerance = false;  ///< other ones than the usual, even where they are the same
 };

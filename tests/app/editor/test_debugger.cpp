@@ -138,6 +138,13 @@ TEST_F(DebuggerTest, ABreakpointIsTypedShownAndObeyed) {
   type("iteration = 2");
   EXPECT_TRUE(editor.interface().state().rects.contains("mistake"));
   keep("breakpoint_mistake");
+  press(ui::Key::enter);
+  EXPECT_EQ(editor.interface().state().focused, "predicate");
+  press(ui::Key::m);
+  EXPECT_EQ(session().task, model::Task::smooth) << "the field still has the keyboard";
+  click("add-break");
+  EXPECT_EQ(editor.interface().state().focused, "predicate");
+  EXPECT_TRUE(session().breakpoints.empty());
   type("iteration == 2");
   EXPECT_FALSE(editor.interface().state().rects.contains("mistake"));
   press(ui::Key::enter);
