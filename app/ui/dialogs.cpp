@@ -107,7 +107,10 @@ void draw_help(const Ui& ui) {
 }
 
 void draw_unsaved_question(const Ui& ui) {
-  if (ui.state.ask_unsaved) ImGui::OpenPopup("unsaved");
+  if (ui.state.ask_unsaved) {
+    ImGui::OpenPopup("unsaved");
+    ui.state.next_focus = "unsaved-save";
+  }
   ui.state.ask_unsaved = false;
   go_on_after_save(ui);
   if (!begin_dialog(ui, "unsaved", ui.px(440))) return;

@@ -297,7 +297,8 @@ void browse_by_keyboard(const Ui& ui) {
   if (ImGui::IsKeyPressed(static_cast<int>(Key::backspace)) && browser.name.empty() &&
       !ImGui::IsAnyItemActive())
     enter(browser, browser.folder.parent_path());
-  if (!ImGui::IsKeyPressed(static_cast<int>(Key::enter), false)) return;
+  const bool is_elsewhere = !ui.state.focused.empty() && ui.state.focused != "name";
+  if (is_elsewhere || !ImGui::IsKeyPressed(static_cast<int>(Key::enter), false)) return;
   if (!browser.overwrite.empty())
     deliver(ui, fs::path(browser.overwrite));
   else if (browser.selected >= 0 && browser.entries[static_cast<std::size_t>(browser.selected)].folder)
@@ -401,8 +402,8 @@ void draw_file_browser(const Ui& ui) {
     ImGui::SameLine();
     draw_entries(ui, height);
     draw_name_line(ui);
-    browse_by_keyboard(ui);
     draw_answers(ui);
+    browse_by_keyboard(ui);
     if (ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
   }

@@ -80,6 +80,9 @@ Output Interface::frame(const model::Session& session, const FrameOptions& optio
     return find_shortcut(press) != nullptr;
   });
   const bool text_before = io.WantTextInput;
+  // Space alone presses buttons in Dear ImGui; Enter begins typing in the fields that have a use for it.
+  if (!text_before && io.KeysDown[static_cast<std::size_t>(Key::enter)])
+    io.NavInputs[ImGuiNavInput_Activate] = 1;
   state_.focus_request = std::exchange(state_.next_focus, {});
   state_.segment_step = 0;
   ImGui::NewFrame();

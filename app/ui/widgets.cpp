@@ -34,6 +34,7 @@ void follow_focus(const Ui& ui, std::string_view name) {
   const ImGuiID id = ImGui::GetItemID();
   if (ui.state.focus_request == name) {
     ImGuiContext& g = *ImGui::GetCurrentContext();
+    if (g.ActiveId != id) ImGui::ClearActiveID();  // a field that was left is typed into no more
     ImGui::FocusWindow(ImGui::GetCurrentWindow());
     ImGui::SetFocusID(id, ImGui::GetCurrentWindow());
     g.NavDisableHighlight = false;

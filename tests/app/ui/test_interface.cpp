@@ -209,6 +209,8 @@ TEST_F(InterfaceTest, TabReachesEveryControlAndSpaceUsesIt) {
   const bool wire = session.view.wire;
   press(Key::space);
   EXPECT_NE(session.view.wire, wire);
+  press(Key::enter);
+  EXPECT_EQ(session.view.wire, wire) << "Enter does what Space does";
   EXPECT_FALSE(session.is_running()) << "Space belongs to the control that has the focus";
   EXPECT_EQ(session.current->iteration, 0U);
   press(Key::escape);

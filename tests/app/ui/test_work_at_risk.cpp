@@ -65,6 +65,25 @@ TEST_F(WorkTest, SaveInTheQuestionAsksForANameSavesAndQuits) {
   EXPECT_TRUE(std::filesystem::exists(folder / "square-smooth.off"));
 }
 
+TEST_F(WorkTest, EnterAnswersTheQuestionWithSaveOrWithTheFocusedButton) {
+  open();
+  press(Key::right);
+  ask_to_quit();
+  EXPECT_EQ(interface.state().focused, "unsaved-save");
+  press(Key::enter);
+  ASSERT_TRUE(shows("browser-accept"));
+  while (interface.state().focused != "browser-cancel") press(Key::tab);
+  press(Key::enter);
+  EXPECT_FALSE(shows("browser-accept"));
+  EXPECT_TRUE(session.has_unsaved_changes()) << "Cancel was pressed, and not Save as well";
+  ask_to_quit();
+  press(Key::tab);
+  ASSERT_EQ(interface.state().focused, "unsaved-cancel");
+  press(Key::enter);
+  EXPECT_FALSE(shows("unsaved-cancel"));
+  EXPECT_FALSE(requested<Quit>());
+}
+
 TEST_F(WorkTest, AQuestionWhoseSaveIsGivenUpLeadsNowhere) {
   open();
   press(Key::right);
