@@ -248,7 +248,7 @@ model::Command to_seek(Words words, const model::Session& session) {
   model::Seek seek;
   if (words.size() > 2) seek.branch = to_number_of(words[2], "run", branches.size());
   const unsigned branch = seek.branch.value_or(session.timeline.cursor.branch);
-  const std::size_t last = branches.empty() ? 0 : branches[branch].tip();
+  const std::size_t last = branches.empty() ? 0 : session.shared_last(branch);
   seek.iteration = to_number_of(words[1], "iteration", last + 1);
   return seek;
 }

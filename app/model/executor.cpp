@@ -36,15 +36,30 @@ void Executor::say(MessageKind kind, std::string text, Topic topic) {
 
 bool Executor::wait_for_run(std::function<void(Session&)> then) {
   if (!s_.is_running()) return false;
+  if (refuses_while_teaching()) return true;
   s_.then_polish_ = false;
   s_.when_idle_.push_back(std::move(then));
   s_.engine.cancel();
   return true;
 }
 
-void Executor::operator()(const OpenFile& command) {
-  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
+// What was to be done once a run or a search has ended.
+void Executor::drop_what_waits() {
   s_.when_idle_.clear();
+  s_.teaching_ = false;
+}
+
+// What would cut a method short, or put the next one elsewhere, waits for the user to say so.
+bool Executor::refuses_while_teaching() {
+  if (!s_.teaching_) return false;
+  const std::string text = "The three methods are still being compared: Pause ends that.";
+  if (s_.messages.empty() || s_.messages.back().text != text) say(MessageKind::info, text);
+  return true;
+}
+
+void Executor::operator()(const OpenFile& command) {
+  drop_what_waits();
+  if (wait_for_run([command](Session& s) { execute(s, command); })) return;
   s_.engine.cancel();
   s_.activity = Activity::loading;
   s_.engine.post("load", load_job(command.path, s_.smoothing));
@@ -83,13 +98,13 @@ void Executor::operator()(const SetView& command) {
 
 void Executor::operator()(const Pause& /*command*/) {
   s_.then_polish_ = false;
-  s_.when_idle_.clear();
+  drop_what_waits();
   if (s_.is_running()) s_.engine.cancel();
 }
 
 void Executor::operator()(const Cancel& /*command*/) {
   s_.then_polish_ = false;
-  s_.when_idle_.clear();
+  drop_what_waits();
   s_.engine.cancel();
 }
 
@@ -286,7 +301,7 @@ void Executor::operator()(Saved& event) {
 
 void Executor::operator()(Failed& event) {
   say(MessageKind::error, event.text, event.topic);
-  s_.when_idle_.clear();
+  drop_what_waits();
   if (s_.activity != Activity::running) s_.activity = Activity::idle;
 }
 

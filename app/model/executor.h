@@ -94,10 +94,12 @@ class Executor {
   void end_run();
   bool wait_for_run(std::function<void(Session&)> then);
   void go_on_when_idle();
+  void drop_what_waits();
+  [[nodiscard]] bool refuses_while_teaching();
   bool run_over_recorded(unsigned iterations);
   Place begin_branch(PartKind kind);
   void drop_empty_branch();
-  void seek(unsigned branch, unsigned iteration);
+  void seek(unsigned branch, unsigned iteration, unsigned beside_at = 0);
   void ask_about_step();
   void follow_selection();
   void forget_runs();

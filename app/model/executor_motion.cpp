@@ -66,8 +66,8 @@ void Executor::operator()(const SetMotion& command) {
 }
 
 void Executor::operator()(const OpenSphere& command) {
+  drop_what_waits();
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
-  s_.when_idle_.clear();
   s_.engine.cancel();
   s_.activity = Activity::loading;
   s_.engine.post("load", sphere_job(command.sphere, s_.smoothing));
@@ -242,12 +242,12 @@ void Executor::operator()(MovingPath& event) {
   s_.inspection.moving_path = std::move(event);
 }
 
-// Moving surfaces stand side by side at the same time, other runs at the same iteration.
+// Moving surfaces stand side by side at the same time, other runs at the same iteration or where they ended.
 unsigned Executor::iteration_beside(unsigned branch) const {
   const Branch& other = s_.timeline.branches[branch];
   const Branch* shown = s_.moving();
   if (shown == nullptr || !other.motion || other.moments.empty())
-    return std::min(s_.timeline.cursor.iteration, other.tip());
+    return std::min(s_.shared_iteration(), other.tip());
   const double time = s_.moment().time;
   const auto nearest = std::ranges::min_element(
       other.moments, {}, [&](const MotionEntry& moment) { return std::abs(moment.time - time); });

@@ -64,6 +64,10 @@ void Executor::operator()(const Run& command) {
 void Executor::operator()(const Step& /*command*/) {
   s_.then_polish_ = false;
   if (s_.task == Task::move) return start_motion(1);
+  // Where the present run has ended, those beside it go on.
+  const unsigned shared = s_.shared_iteration();
+  if (shared > s_.timeline.cursor.iteration && shared < s_.shared_last())
+    return (*this)(Seek{shared + 1, {}});
   leave_polish_ahead();
   if (is_polished()) return say(MessageKind::info, kPolished);
   start_run(1, kind_here());
@@ -141,6 +145,7 @@ void Executor::prepare_run(unsigned iterations) {
   s_.last_run.reset();
   s_.broken_by.clear();
   s_.inspection = {};
+  s_.beside_at_ = 0;
   s_.timeline.cursor.stage.reset();
   s_.activity = Activity::running;
 }
@@ -281,6 +286,7 @@ void Executor::operator()(const Teach& /*command*/) {
   const SmoothingSettings settings = s_.smoothing;
   s_.then_polish_ = false;
   s_.taught_.clear();
+  s_.teaching_ = true;
   for (const Method method : {Method::laplacian, Method::angle_based, Method::near_isometry}) {
     s_.when_idle_.push_back([from](Session& s) {
       if (!s.timeline.empty()) Executor(s).seek(from.branch, from.iteration);
@@ -293,6 +299,7 @@ void Executor::operator()(const Teach& /*command*/) {
     s_.when_idle_.push_back([](Session& s) { s.taught_.push_back(s.timeline.cursor); });
   }
   s_.when_idle_.push_back([](Session& s) {
+    s.teaching_ = false;
     std::vector<unsigned> beside;
     for (const Cursor& cursor : s.taught_)
       if (cursor.branch != s.timeline.cursor.branch) beside.push_back(cursor.branch);

@@ -34,6 +34,23 @@ bool Session::continues_branch() const {
          (!branch->from_file || timeline.cursor.iteration < branch->tip());
 }
 
+unsigned Session::shared_iteration() const {
+  return shown_branches.empty() ? timeline.cursor.iteration : std::max(timeline.cursor.iteration, beside_at_);
+}
+
+unsigned Session::shared_last(unsigned branch) const {
+  unsigned last = timeline.branches[branch].tip();
+  if (timeline.branches[branch].motion) return last;  // those share the time
+  const auto include = [&](unsigned other) {
+    if (!timeline.branches[other].motion) last = std::max(last, timeline.branches[other].tip());
+  };
+  for (const unsigned other : shown_branches) {
+    include(other);
+    if (other == branch) include(timeline.cursor.branch);  // they change places
+  }
+  return last;
+}
+
 void Executor::go_on_when_idle() {
   while (!s_.when_idle_.empty() && s_.activity == Activity::idle && !s_.seeking_) {
     const auto next = std::move(s_.when_idle_.front());
@@ -67,8 +84,14 @@ Path Executor::path_of(unsigned branch, unsigned last) const {
   return path;
 }
 
-void Executor::seek(unsigned branch, unsigned iteration) {
+// A run that stood beside the present one changes places with it.
+void Executor::seek(unsigned branch, unsigned iteration, unsigned beside_at) {
   Timeline& timeline = s_.timeline;
+  if (branch == timeline.cursor.branch)
+    std::erase(s_.shown_branches, branch);
+  else
+    std::ranges::replace(s_.shown_branches, branch, timeline.cursor.branch);
+  s_.beside_at_ = std::max(iteration, beside_at);
   timeline.cursor.branch = branch;
   timeline.cursor.iteration = iteration;
   s_.last_run.reset();
@@ -83,14 +106,17 @@ void Executor::seek(unsigned branch, unsigned iteration) {
 }
 
 void Executor::operator()(const Seek& command) {
-  if (!s_.current) return;
+  if (!s_.current || refuses_while_teaching()) return;
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
   if (s_.activity != Activity::idle || s_.timeline.empty()) return;
   const Timeline& timeline = s_.timeline;
   const unsigned branch = std::min(command.branch.value_or(timeline.cursor.branch),
                                    static_cast<unsigned>(timeline.branches.size()) - 1);
-  const unsigned iteration = std::min(command.iteration, timeline.branches[branch].tip());
-  if (branch == timeline.cursor.branch && iteration == timeline.cursor.iteration && !s_.seeking_) return;
+  const unsigned shared = std::min(command.iteration, s_.shared_last(branch));
+  const unsigned iteration = std::min(shared, timeline.branches[branch].tip());
+  if (branch == timeline.cursor.branch && iteration == timeline.cursor.iteration &&
+      shared == s_.shared_iteration() && !s_.seeking_)
+    return;
   // Another branch brings its settings: Run goes on with it.
   if (branch != timeline.cursor.branch) {
     const auto& motion = timeline.branches[branch].motion;
@@ -100,7 +126,7 @@ void Executor::operator()(const Seek& command) {
     settings.iterations = s_.smoothing.iterations;
     s_.smoothing = settings;
   }
-  seek(branch, iteration);
+  seek(branch, iteration, shared);
 }
 
 void Executor::operator()(Sought& event) {
@@ -236,7 +262,9 @@ void Executor::operator()(const SetStepBudget& command) {
 void Executor::operator()(const ShowBranches& command) {
   s_.shown_branches.clear();
   for (const unsigned branch : command.branches)
-    if (branch < s_.timeline.branches.size() && s_.shown_branches.size() < kMostBeside)
+    if (branch < s_.timeline.branches.size() && branch != s_.timeline.cursor.branch &&
+        s_.shown_branches.size() < kMostBeside &&
+        std::ranges::find(s_.shown_branches, branch) == s_.shown_branches.end())
       s_.shown_branches.push_back(branch);
   s_.other_states.clear();
   if (!s_.timeline.empty() && !s_.is_running() && s_.current)
@@ -251,6 +279,7 @@ void Executor::forget_runs() {
   s_.step_memory = {};
   s_.shown_branches.clear();
   s_.other_states.clear();
+  s_.beside_at_ = 0;
   s_.comparison.reset();
   s_.selected_limit.reset();
   s_.broken_by.clear();

@@ -47,6 +47,7 @@ void Executor::operator()(Wrote& event) {
 }
 
 void Executor::operator()(const OpenTrace& command) {
+  drop_what_waits();
   if (wait_for_run([command](Session& s) { execute(s, command); })) return;
   s_.engine.cancel();
   s_.activity = Activity::loading;

@@ -38,8 +38,8 @@ void Executor::operator()(const Reset& command) {
 
 void Executor::operator()(const StepBack& /*command*/) {
   if (!s_.current) return;
-  if (s_.timeline.cursor.iteration > 0)
-    (*this)(Seek{s_.timeline.cursor.iteration - 1, {}});
+  if (s_.shared_iteration() > 0)
+    (*this)(Seek{s_.shared_iteration() - 1, {}});
   else
     say(MessageKind::info, "There is no earlier iteration to go back to.");
 }

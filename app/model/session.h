@@ -131,6 +131,15 @@ struct Session {
   [[nodiscard]] bool can_smooth() const { return current && activity == Activity::idle; }
   /// Whether another iteration than the one on screen was asked for.
   [[nodiscard]] bool is_seeking() const { return seeking_; }
+  /// The iteration that views beside each other share: a later one than the present run's where that has
+  /// ended.
+  [[nodiscard]] unsigned shared_iteration() const;
+  /// The last one that a branch and those that would stand beside it lead to.
+  [[nodiscard]] unsigned shared_last(unsigned branch) const;
+  /// The same of the present one.
+  [[nodiscard]] unsigned shared_last() const {
+    return timeline.empty() ? 0 : shared_last(timeline.cursor.branch);
+  }
   /// Whether a run from here goes on with the present branch, or over what is recorded of it; else it begins
   /// a branch.
   [[nodiscard]] bool continues_branch() const;
@@ -151,6 +160,8 @@ struct Session {
   bool then_polish_ = false;      // once the solver has done its steps
   Cursor cursor_at_start_;
   std::vector<Cursor> taught_;  // where Teach has come to
+  bool teaching_ = false;
+  unsigned beside_at_ = 0;  // iteration that was asked for last, over all runs that are shown
   unsigned scan_to_ = 0;
   std::function<void(Session&)> after_scan_;  // where no breakpoint stopped it
   bool seeking_ = false;

@@ -113,9 +113,10 @@ void toggle_play(const Ui& ui, int direction) {
   playing.direction = playing.direction != 0 ? 0 : direction;
   if (playing.direction == 0 || ui.session.timeline.empty()) return;
   // At the end of the way it starts over.
-  const model::Timeline& timeline = ui.session.timeline;
-  if (direction > 0 && timeline.cursor.iteration >= timeline.last()) ui.command(model::Seek{0, {}});
-  if (direction < 0 && timeline.cursor.iteration == 0) ui.command(model::Seek{timeline.last(), {}});
+  const unsigned at = ui.session.shared_iteration();
+  const unsigned last = ui.session.shared_last();
+  if (direction > 0 && at >= last) ui.command(model::Seek{0, {}});
+  if (direction < 0 && at == 0) ui.command(model::Seek{last, {}});
 }
 
 void perform_inspection(const Ui& ui, Action action) {
@@ -125,7 +126,7 @@ void perform_inspection(const Ui& ui, Action action) {
       ui.command(model::Seek{0, {}});
       break;
     case Action::to_end:
-      ui.command(model::Seek{s.timeline.last(), {}});
+      ui.command(model::Seek{s.shared_last(), {}});
       break;
     case Action::play_forward:
       toggle_play(ui, 1);

@@ -166,7 +166,7 @@ void draw_grid(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportI
                             : k - 1 < s.shown_branches.size() ? s.shown_branches[k - 1]
                                                               : 0;
     if (branch >= s.timeline.branches.size()) continue;
-    const unsigned at = std::min(s.timeline.cursor.iteration, s.timeline.branches[branch].tip());
+    const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
     draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at),
               {cell.low.x, cell.high.y}, cell.width(), true);
     mark_area(ui, "view/" + std::to_string(k), cell);

@@ -34,7 +34,7 @@ void draw_branch(const Ui& ui, unsigned k) {
   const float height = ui.px(44);
   if (button(ui, name, "",
              {.look = present ? ButtonLook::pressed : ButtonLook::quiet, .width = width, .height = height}))
-    ui.command(model::Seek{std::min(s.timeline.cursor.iteration, branch.tip()), k});
+    ui.command(model::Seek{s.shared_iteration(), k});
   tooltip(ui, present ? "This run is shown." : "Show this run, with its settings.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({low.x + ui.px(8), low.y + ui.px(9)}, {low.x + ui.px(12), low.y + ui.px(35)},

@@ -75,6 +75,9 @@ std::string caption(const model::Session& s) {
   const Timeline& timeline = s.timeline;
   if (timeline.empty()) return "Nothing has been run yet: Space runs, Right makes one step.";
   if (const model::Branch* branch = s.moving()) return motion_caption(s, *branch);
+  if (s.shared_iteration() > timeline.cursor.iteration)
+    return "Iteration " + std::to_string(s.shared_iteration()) + "   \xC2\xB7   " + timeline.current()->name +
+           " ended at " + std::to_string(timeline.cursor.iteration);
   std::string text = "Iteration " + std::to_string(timeline.cursor.iteration) + " of " +
                      std::to_string(timeline.last()) + "   \xC2\xB7   " + timeline.current()->name;
   const model::StepSummary* step = timeline.step(timeline.cursor.branch, timeline.cursor.iteration);
@@ -148,7 +151,7 @@ void draw_hits(const Ui& ui, const Track& track) {
 
 void draw_cursor(const Ui& ui, const Track& track) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float x = std::floor(track.x(ui.session.timeline.cursor.iteration)) + 0.5F;
+  const float x = std::floor(track.x(ui.session.shared_iteration())) + 0.5F;
   const float top = track.area.low.y - ui.px(3);
   draw.AddLine({x, top}, {x, track.area.high.y}, color::kText, ui.px(1.5F));
   draw.AddTriangleFilled({x - ui.px(5), top - ui.px(3)}, {x + ui.px(5), top - ui.px(3)}, {x, top + ui.px(4)},
@@ -182,7 +185,7 @@ void scrub(const Ui& ui, const Track& track) {
       }
     }
   }
-  if (ImGui::IsItemActive() && std::min(at, s.timeline.last()) != s.timeline.cursor.iteration)
+  if (ImGui::IsItemActive() && std::min(at, s.shared_last()) != s.shared_iteration())
     ui.command(model::Seek{at, {}});
   if (!ImGui::IsItemHovered()) return;
   const auto& rows = s.history;
@@ -296,8 +299,9 @@ void play(const Ui& ui, float seconds) {
   const auto steps = static_cast<unsigned>(playing.due);
   if (steps == 0) return;
   playing.due -= static_cast<float>(steps);
-  const unsigned at = s.timeline.cursor.iteration;
-  const unsigned left = playing.direction > 0 ? s.timeline.last() - std::min(at, s.timeline.last()) : at;
+  const unsigned at = s.shared_iteration();
+  const unsigned last = s.shared_last();
+  const unsigned left = playing.direction > 0 ? last - std::min(at, last) : at;
   if (left == 0) {
     playing = {0, playing.speed, 0};
     return;

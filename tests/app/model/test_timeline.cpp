@@ -309,6 +309,75 @@ TEST_F(TimelineTest, TheThreeMethodsStandSideBySide) {
   EXPECT_NE(session.other_states[0]->geometry, at_three) << "they share the timeline";
 }
 
+TEST_F(TimelineTest, NothingCutsAMethodShortThatIsCompared) {
+  open();
+  set([](SmoothingSettings& s) {
+    s.iterations = 40;
+    s.tolerance = 0;
+  });
+  act(Step{});
+  execute(session, Teach{});
+  while (!session.is_running()) execute(session, Collect{});
+  execute(session, Seek{0, 0U});
+  EXPECT_NE(session.messages.back().text.find("being compared"), std::string::npos);
+  finish(session);
+  ASSERT_EQ(timeline().branches.size(), 3U);
+  EXPECT_EQ(timeline().branches[1].tip(), 41U);
+  EXPECT_EQ(timeline().branches[2].tip(), 41U);
+  // Pause does end it, and then all can be done again.
+  act(Seek{0, 0U});
+  execute(session, Teach{});
+  execute(session, Pause{});
+  finish(session);
+  act(Seek{3, 1U});
+  EXPECT_EQ(timeline().cursor.branch, 1U);
+}
+
+TEST_F(TimelineTest, RunsChangePlacesAndNoneStandsBesideItself) {
+  open();
+  set([](SmoothingSettings& s) {
+    s.iterations = 3;
+    s.tolerance = 0;
+  });
+  act(Teach{});
+  act(Seek{2, 0U});
+  EXPECT_EQ(timeline().cursor.branch, 0U);
+  EXPECT_EQ(session.shown_branches, (std::vector<unsigned>{2, 1}));
+  EXPECT_EQ(session.other_states.size(), 2U);
+  act(ShowBranches{{0, 1, 1}});
+  EXPECT_EQ(session.shown_branches, (std::vector<unsigned>{1}));
+}
+
+TEST_F(TimelineTest, ARunThatHasEndedShowsItsEndBesideLongerOnes) {
+  open();
+  run(6);
+  const auto at_six = shown();
+  act(Seek{0, {}});
+  set([](SmoothingSettings& s) {
+    s.method = Method::laplacian;
+    s.iterations = 2;
+  });
+  act(Run{});
+  act(Seek{6, {}});
+  EXPECT_EQ(session.shared_iteration(), 2U) << "alone it has no more than its own";
+  act(ShowBranches{{0}});
+  EXPECT_EQ(session.shared_last(), 6U);
+  act(Seek{6, {}});
+  EXPECT_EQ(session.shared_iteration(), 6U);
+  EXPECT_EQ(session.current->iteration, 2U);
+  ASSERT_EQ(session.other_states.size(), 1U);
+  EXPECT_TRUE(std::ranges::equal(session.other_states[0]->positions(), at_six));
+  act(StepBack{});
+  act(StepBack{});
+  EXPECT_EQ(session.shared_iteration(), 4U);
+  act(Step{});
+  EXPECT_EQ(session.shared_iteration(), 5U) << "no new one while those beside it have more";
+  act(Seek{session.shared_iteration(), 0U});
+  EXPECT_EQ(session.current->iteration, 5U);
+  act(Seek{1, {}});
+  EXPECT_EQ(session.shared_iteration(), 1U);
+}
+
 TEST_F(TimelineTest, WorstTrianglesComeByAnyMetric) {
   open();
   for (std::size_t k = 0; k < kWorstBy; ++k) {
