@@ -150,7 +150,8 @@ void execute(Session& session, const Command& command);
 /// Executes Collect until the worker is idle: for tests and for pictures without a window.
 void finish(Session& session);
 
-/// `isorelax smooth`, or `isorelax advect`, with the session's file and settings, quoted for a shell.
+/// `isorelax smooth`, or `isorelax advect`, with the session's file and settings, quoted for a shell: of a
+/// run that was stopped or stepped the steps made so far. Its output is a file that is not there yet.
 [[nodiscard]] std::string command_line(const Session& session);
 
 }  // namespace isorelax::model

@@ -16,10 +16,6 @@ bool any_active(const std::vector<Breakpoint>& points) {
   return std::ranges::any_of(points, [](const Breakpoint& p) { return p.enabled && p.predicate; });
 }
 
-bool has_converged(const RunResult& result) {
-  return result.stopped != StopReason::iterations && result.stopped != StopReason::cancelled;
-}
-
 unsigned polish_steps() {
   return PolishOptions().iterations;
 }

@@ -57,6 +57,10 @@ bool same_steps(const Branch& branch, const SmoothingSettings& settings) {
          (branch.kind == PartKind::solver || branch.settings.polish == settings.polish);
 }
 
+bool has_converged(const RunResult& result) {
+  return result.stopped != StopReason::iterations && result.stopped != StopReason::cancelled;
+}
+
 std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent) {
   if (kind == PartKind::polish) {
     constexpr std::array<std::string_view, 4> kGoals{"none", "worst angles", "mean", "worst angles, mean"};

@@ -91,6 +91,9 @@ struct Timeline {
 /// Whether the steps of a branch are those that these settings make.
 [[nodiscard]] bool same_steps(const Branch& branch, const SmoothingSettings& settings);
 
+/// Whether a run ended by itself: not because somebody, or its number of iterations, said so.
+[[nodiscard]] bool has_converged(const RunResult& result);
+
 /// What a branch of this kind is called: its method, or what it does otherwise than the one it left.
 [[nodiscard]] std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent);
 

@@ -326,7 +326,7 @@ void draw_run_buttons(const Ui& ui) {
   if (button(ui, "copy-command-line", "Copy CLI",
              {.width = width - 2 * (gap + each), .height = height, .enabled = s.document != nullptr}))
     perform(ui, Action::copy_command_line);
-  tooltip(ui, "Copy these settings as a command line: the same for a shell.",
+  tooltip(ui, "Copy what was done, or else these settings, as a command line: the same for a shell.",
           keys_of(Action::copy_command_line));
 }
 

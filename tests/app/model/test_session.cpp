@@ -356,6 +356,33 @@ TEST_F(SessionTest, TheCommandLineNamesEverySettingAndQuotesTheFile) {
       << text;
 }
 
+TEST_F(SessionTest, TheCommandLineMakesTheStepsThatWereMade) {
+  open();
+  const auto has = [&](const std::string& words) {
+    return command_line(session).find(words) != std::string::npos;
+  };
+  session.smoothing.polish = Polish::worst;
+  do_and_wait(Step{});
+  do_and_wait(Step{});
+  EXPECT_TRUE(has("--iterations 2 --tolerance 0 --max")) << command_line(session);
+  session.smoothing.polish = Polish::none;
+  do_and_wait(model::Run{});
+  EXPECT_TRUE(has("--iterations 1000 --tolerance 1e-06 ")) << "it ended by itself: " << command_line(session);
+  do_and_wait(Seek{3, {}});
+  EXPECT_TRUE(has("--iterations 3 --tolerance 0 ")) << command_line(session);
+  do_and_wait(Seek{0, {}});
+  EXPECT_TRUE(has("--iterations 1000 ")) << command_line(session);
+}
+
+TEST_F(SessionTest, TheCommandLineNamesAnOutputThatIsNotThereYet) {
+  open();
+  const std::string name = (folder / "square-smooth").string();
+  EXPECT_NE(command_line(session).find(" -o " + name + ".off "), std::string::npos);
+  do_and_wait(SaveFile{name + ".off"});
+  EXPECT_NE(command_line(session).find(" -o " + name + "-2.off "), std::string::npos)
+      << command_line(session);
+}
+
 TEST_F(SessionTest, WhatWasSaidOfAMeshIsGoneWithIt) {
   const std::filesystem::path flawed = folder / "flawed.off";
   std::ofstream(flawed) << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n3 0 1 2\n3 1 3 2\n3 0 1 4\n";
