@@ -288,6 +288,15 @@ std::string limits_sentence(const model::StepSummary& step) {
   return text;
 }
 
+/// "43 iterations": all that the run has, however often it was stopped on the way.
+std::string run_length(const model::Session& session) {
+  const model::Branch* branch = session.timeline.current();
+  unsigned count = session.last_run->iterations;
+  if (branch != nullptr && session.last_run->stopped != StopReason::fixed)
+    count = branch->tip() - (branch->kind == PartKind::polish ? branch->start : 0);
+  return std::to_string(count) + (count == 1 ? " iteration" : " iterations");
+}
+
 }  // namespace
 
 std::string describe_last_run(const model::Session& session) {
@@ -300,9 +309,8 @@ std::string describe_last_run(const model::Session& session) {
                          ? "Stopped at iteration " + std::to_string(session.current->iteration) + ", where " +
                                session.broken_by
                      : run.stopped == StopReason::cancelled
-                         ? "Paused after " + std::to_string(run.iterations) + " iterations"
-                         : (polished ? "Polished in " : "Stopped after ") + std::to_string(run.iterations) +
-                               (run.iterations == 1 ? " iteration: " : " iterations: ") +
+                         ? "Paused after " + run_length(session)
+                         : (polished ? "Polished in " : "Stopped after ") + run_length(session) + ": " +
                                std::string(to_string(run.stopped));
   return session.last_step ? text + limits_sentence(*session.last_step) : text;
 }

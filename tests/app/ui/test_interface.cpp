@@ -54,6 +54,10 @@ TEST_F(InterfaceTest, RunButtonRunsTheNumberOfIterations) {
   EXPECT_TRUE(shows("news"));
   EXPECT_NE(describe_last_run(session).find("5 iterations"), std::string::npos);
   EXPECT_NE(describe_last_run(session).find("boundary"), std::string::npos) << describe_last_run(session);
+  press(Key::right);
+  press(Key::right);
+  EXPECT_NE(describe_last_run(session).find("after 7 iterations"), std::string::npos)
+      << "all of the run, not the last step: " << describe_last_run(session);
 }
 
 TEST_F(InterfaceTest, DraggingTheWeightSliderChangesTheSettingOnce) {
