@@ -209,7 +209,10 @@ Place Executor::begin_branch(PartKind kind) {
   branch.settings = s_.smoothing;
   branch.start = timeline.cursor.iteration;
   branch.parent = branch_shown_at_start();
-  branch.name = branch_name(s_.smoothing, kind, branch.parent ? &timeline.branches[*branch.parent] : nullptr);
+  // It leaves the run that made the steps up to here, of which the one that is shown may know only the start.
+  branch.name = branch_name(
+      s_.smoothing, kind,
+      branch.parent ? &timeline.branches[timeline.holder(*branch.parent, branch.start)] : nullptr);
   branch.recording = std::make_shared<Recording>();
   if (s_.current->energy && s_.current->energy->of_record) ++s_.series;  // these settings measure another one
   if (s_.current->energy && !s_.current->energy->of_record &&

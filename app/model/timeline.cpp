@@ -61,6 +61,34 @@ bool has_converged(const RunResult& result) {
   return result.stopped != StopReason::iterations && result.stopped != StopReason::cancelled;
 }
 
+namespace {
+
+/// What makes other steps under the second settings, with commas between.
+std::string other_settings(const SmoothingSettings& from, const SmoothingSettings& to) {
+  std::string text;
+  const auto add = [&](bool differs, const std::string& name) {
+    if (differs) text += (text.empty() ? "" : ", ") + name;
+  };
+  const auto number = [](const char* format, double value) {
+    std::array<char, 64> digits{};
+    std::snprintf(digits.data(), digits.size(), format, value);
+    return std::string(digits.data());
+  };
+  add(from.mu_a != to.mu_a, number("\xCE\xBC\xE2\x82\x90 %.2f", to.mu_a));
+  add(from.solver != to.solver, std::string(solver_option(to.solver)));
+  add(from.exponent != to.exponent, number("exponent %g", to.exponent));
+  add(from.reference != to.reference || from.reference_file != to.reference_file ||
+          from.edge_length != to.edge_length,
+      "another reference");
+  add(from.boundary != to.boundary, "another boundary rule");
+  add(from.features != to.features || from.feature_deg != to.feature_deg, "other features");
+  add(from.pinned != to.pinned, "other pins");
+  add(from.reach != to.reach || from.max_deviation != to.max_deviation, "another distance");
+  return text;
+}
+
+}  // namespace
+
 std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent) {
   if (kind == PartKind::polish) {
     constexpr std::array<std::string_view, 4> kGoals{"none", "worst angles", "mean", "worst angles, mean"};
@@ -68,28 +96,8 @@ std::string branch_name(const SmoothingSettings& settings, PartKind kind, const 
   }
   if (parent == nullptr || parent->settings.method != settings.method)
     return std::string(title(settings.method));
-  const SmoothingSettings& from = parent->settings;
-  std::array<char, 64> text{};
-  if (from.mu_a != settings.mu_a)
-    std::snprintf(text.data(), text.size(), "\xCE\xBC\xE2\x82\x90 %.2f", settings.mu_a);
-  else if (from.solver != settings.solver)
-    std::snprintf(text.data(), text.size(), "%s", std::string(solver_option(settings.solver)).c_str());
-  else if (from.exponent != settings.exponent)
-    std::snprintf(text.data(), text.size(), "exponent %g", settings.exponent);
-  else if (from.reference != settings.reference || from.reference_file != settings.reference_file ||
-           from.edge_length != settings.edge_length)
-    return "another reference";
-  else if (from.boundary != settings.boundary)
-    return "another boundary rule";
-  else if (from.features != settings.features || from.feature_deg != settings.feature_deg)
-    return "other features";
-  else if (from.pinned != settings.pinned)
-    return "other pins";
-  else if (from.reach != settings.reach || from.max_deviation != settings.max_deviation)
-    return "another distance";
-  else
-    return "again";
-  return text.data();
+  const std::string others = other_settings(without_unused(parent->settings), without_unused(settings));
+  return others.empty() ? "again" : others;
 }
 
 bool same_motion(const MotionChoices& a, const MotionChoices& b) {

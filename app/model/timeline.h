@@ -94,7 +94,7 @@ struct Timeline {
 /// Whether a run ended by itself: not because somebody, or its number of iterations, said so.
 [[nodiscard]] bool has_converged(const RunResult& result);
 
-/// What a branch of this kind is called: its method, or what it does otherwise than the one it left.
+/// What a branch of this kind is called: its method, or all that it does otherwise than the one it left.
 [[nodiscard]] std::string branch_name(const SmoothingSettings& settings, PartKind kind, const Branch* parent);
 
 /// Whether both make the same steps.

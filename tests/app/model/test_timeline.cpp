@@ -309,6 +309,23 @@ TEST_F(TimelineTest, TheThreeMethodsStandSideBySide) {
   EXPECT_NE(session.other_states[0]->geometry, at_three) << "they share the timeline";
 }
 
+TEST_F(TimelineTest, ABranchIsNamedByAllThatTheRunWhichItLeavesDoesOtherwise) {
+  open();
+  run(3);
+  set([](SmoothingSettings& s) {
+    s.solver = Solver::jacobi;
+    s.mu_a = 0.5;
+  });
+  act(Seek{2, {}});
+  act(Step{});
+  EXPECT_EQ(timeline().branches[1].name, "\xCE\xBC\xE2\x82\x90 0.50, jacobi");
+  // At iteration 1 it is the first run that is left, which has the automatic solver and no weight on areas.
+  act(Seek{1, {}});
+  set([](SmoothingSettings& s) { s.mu_a = 0; });
+  act(Step{});
+  EXPECT_EQ(timeline().branches[2].name, "jacobi");
+}
+
 TEST_F(TimelineTest, NothingCutsAMethodShortThatIsCompared) {
   open();
   set([](SmoothingSettings& s) {
