@@ -12,6 +12,7 @@ namespace isorelax::model {
 namespace {
 
 constexpr std::size_t kMessagesKept = 100;
+constexpr std::size_t kHitsKept = 1000;
 constexpr std::size_t kRecentKept = 12;
 /// Triangles up to which the distance from the original is measured after every run.
 constexpr Index kMostMeasured = 200000;
@@ -32,6 +33,12 @@ constexpr std::array kMeasured{Coloring::min_angle, Coloring::max_angle, Colorin
 void Executor::say(MessageKind kind, std::string text, Topic topic) {
   s_.messages.push_back({kind, std::move(text), topic, ++s_.message_count_});
   if (s_.messages.size() > kMessagesKept) s_.messages.pop_front();
+}
+
+// The newest of all.
+void Executor::keep_hits(std::vector<BreakHit>& hits) {
+  for (BreakHit& hit : hits) s_.hits.push_back(std::move(hit));
+  while (s_.hits.size() > kHitsKept) s_.hits.pop_front();
 }
 
 bool Executor::wait_for_run(std::function<void(Session&)> then) {
@@ -249,7 +256,7 @@ void Executor::operator()(Iterated& event) {
   s_.history.insert(s_.history.end(), event.rows.begin(), event.rows.end());
   branch.rows.insert(branch.rows.end(), event.rows.begin(), event.rows.end());
   branch.steps.insert(branch.steps.end(), event.steps.begin(), event.steps.end());
-  s_.hits.insert(s_.hits.end(), event.hits.begin(), event.hits.end());
+  keep_hits(event.hits);
   s_.step_memory = event.memory;
   if (!branch.steps.empty()) s_.last_step = branch.steps.back();
   if (!event.state) return;

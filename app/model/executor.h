@@ -74,6 +74,7 @@ class Executor {
 
  private:
   void say(MessageKind kind, std::string text, Topic topic = Topic::other);
+  void keep_hits(std::vector<BreakHit>& hits);
   void keep_result(const std::optional<RunResult>& result);
   void start_run(unsigned iterations, PartKind kind);
   [[nodiscard]] PartKind kind_here() const;

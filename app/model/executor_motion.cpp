@@ -174,7 +174,7 @@ void Executor::operator()(Moved& event) {
   branch.steps.insert(branch.steps.end(), event.steps.begin(), event.steps.end());
   branch.moments.insert(branch.moments.end(), std::make_move_iterator(event.moments.begin()),
                         std::make_move_iterator(event.moments.end()));
-  s_.hits.insert(s_.hits.end(), event.hits.begin(), event.hits.end());
+  keep_hits(event.hits);
   s_.last_step.reset();
   if (!event.state) return;
   show(event.state);

@@ -9,7 +9,6 @@
 namespace isorelax::model {
 namespace {
 
-constexpr std::size_t kHitsKept = 1000;
 constexpr const char* kPolished = "The polish has ended: nothing gets better here.";
 
 bool any_active(const std::vector<Breakpoint>& points) {
@@ -188,8 +187,7 @@ bool Executor::run_over_recorded(unsigned iterations) {
 void Executor::operator()(Scanned& event) {
   s_.activity = Activity::idle;
   s_.run_start_.reset();
-  for (BreakHit& hit : event.hits) s_.hits.push_back(std::move(hit));
-  while (s_.hits.size() > kHitsKept) s_.hits.pop_front();
+  keep_hits(event.hits);
   s_.broken_by = event.broken_by;
   seek(s_.timeline.cursor.branch, event.stop.value_or(s_.scan_to_));
   if (!event.broken_by.empty())

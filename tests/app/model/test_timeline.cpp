@@ -202,6 +202,15 @@ TEST_F(TimelineTest, ABreakpointStopsARunAndALogOnlyTells) {
   EXPECT_EQ(timeline().branches.size(), 1U);
 }
 
+TEST_F(TimelineTest, OnlyTheNewestHitsAreKept) {
+  open(30);
+  const std::vector<Breakpoint> logs(300, make_breakpoint("iteration > 0", BreakAction::log));
+  act(SetBreakpoints{logs});
+  run(5);
+  EXPECT_EQ(session.hits.size(), 1000U);
+  EXPECT_EQ(session.hits.back().iteration, 5U);
+}
+
 TEST_F(TimelineTest, AMistakeInABreakpointHasItsPlace) {
   const Breakpoint bad = make_breakpoint("min_angle < fife", BreakAction::stop);
   EXPECT_FALSE(bad.predicate);
