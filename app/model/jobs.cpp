@@ -29,7 +29,7 @@ class RunReporter {
     Workbench& bench = context_.bench();
     bench.went_on(recording_);
     if (bench.steps().fits(bytes_of(record)))
-      bench.steps().add(&recording_, recording_.size(), std::make_shared<StepRecord>(record));
+      bench.steps().add(recording_.number(), recording_.size(), std::make_shared<StepRecord>(record));
     iteration_ = request_.start->iteration + iteration;
     const TraceQuality& quality = recording_.trace().iterations.back().quality;
     found_.rows.push_back({iteration_, record.after.energy, quality.min_angle_deg, quality.max_angle_deg,
@@ -46,7 +46,7 @@ class RunReporter {
 
   // The last state, unless it is out already.
   void finish(std::span<const Vec3> positions) {
-    const auto last = context_.bench().steps().find(&recording_, recording_.size());
+    const auto last = context_.bench().steps().find(recording_.number(), recording_.size());
     if (broken_by_.empty() && last && recording_.size() > 0) look_at_breakpoints(*last, positions, true);
     if (!found_.rows.empty() || !found_.hits.empty()) publish(positions);
   }
@@ -83,7 +83,7 @@ class RunReporter {
     state->geometry = measure_geometry(*request_.document, {positions.begin(), positions.end()});
     state->energy = measure_energy(problem_, request_.settings, positions);
     Workbench& bench = context_.bench();
-    bench.note_geometry(&recording_, recording_.size(), state->geometry);
+    bench.note_geometry(recording_.number(), recording_.size(), state->geometry);
     found_.state = std::move(state);
     found_.memory = {bench.steps().bytes(), bench.steps().count()};
     context_.publish(std::exchange(found_, {}));

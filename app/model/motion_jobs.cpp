@@ -134,7 +134,7 @@ class MotionReporter {
     state->geometry =
         at.step == 0 ? request_.start->geometry : measure_geometry(*request_.document, at.positions);
     state->energy = energy_;
-    context_.bench().note_geometry(&recording_, static_cast<unsigned>(at.step), state->geometry);
+    context_.bench().note_geometry(recording_.number(), static_cast<unsigned>(at.step), state->geometry);
     found_.state = std::move(state);
     context_.publish(std::exchange(found_, {}));
     published_ = MotionClock::now();

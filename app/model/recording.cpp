@@ -1,6 +1,7 @@
 #include "model/recording.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "mesh/error.h"
 #include "trace/position_delta.h"
@@ -12,7 +13,14 @@ namespace {
 /// Whole positions that a recording keeps, in bytes.
 constexpr std::size_t kWholeBudget = std::size_t{256} << 20U;
 
+std::uint64_t next_number() {
+  static std::atomic<std::uint64_t> count{0};
+  return ++count;
+}
+
 }  // namespace
+
+Recording::Recording() : number_(next_number()) {}
 
 void Recording::begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start, BasePtr base) {
   const std::vector<Vec3>& made_from = base ? *base : mesh.positions;
@@ -92,8 +100,7 @@ void StepStore::set_budget(std::size_t bytes) {
   drop_oldest();
 }
 
-void StepStore::add(const Recording* recording, unsigned iteration,
-                    std::shared_ptr<const StepRecord> record) {
+void StepStore::add(std::uint64_t recording, unsigned iteration, std::shared_ptr<const StepRecord> record) {
   const std::size_t bytes = bytes_of(*record);
   if (bytes > budget_ || find(recording, iteration)) return;
   kept_.push_back({{recording, iteration}, std::move(record), bytes});
@@ -101,7 +108,7 @@ void StepStore::add(const Recording* recording, unsigned iteration,
   drop_oldest();
 }
 
-std::shared_ptr<const StepRecord> StepStore::find(const Recording* recording, unsigned iteration) const {
+std::shared_ptr<const StepRecord> StepStore::find(std::uint64_t recording, unsigned iteration) const {
   const auto found = std::ranges::find_if(kept_, [&](const Kept& kept) {
     return kept.key == Key{recording, iteration};
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -37,6 +38,10 @@ struct ReadAs {
 /// so that any iteration is near one. Belongs to the worker: no other thread touches what is in it.
 class Recording {
  public:
+  Recording();
+  /// No other recording of this process has had it: what is kept of one that is gone is never taken for what
+  /// another one, at the same address, would have. Not 0.
+  [[nodiscard]] std::uint64_t number() const { return number_; }
   /// Begins at these positions of the document's mesh; `about` says what the run is. Its problem is made from
   /// `base`; at the mesh as opened, the first step begins there, too.
   void begin(Trace about, const TriangleMesh& mesh, std::span<const Vec3> start, BasePtr base = {});
@@ -72,6 +77,7 @@ class Recording {
  private:
   void keep(unsigned iteration, std::span<const Vec3> positions);
 
+  std::uint64_t number_;
   std::unique_ptr<TraceRecorder> recorder_;
   std::unique_ptr<Trace> taken_;
   std::map<unsigned, std::vector<Vec3>> whole_;  // iteration -> positions
@@ -84,23 +90,23 @@ class Recording {
 };
 
 /// Full step records of the newest steps, as many as fit into a budget; and states that somebody still holds,
-/// so that the same iteration is the same state. Belongs to the worker.
+/// so that the same iteration is the same state. Recordings go by their numbers. Belongs to the worker.
 class StepStore {
  public:
   static constexpr std::size_t kDefaultBudget = std::size_t{1} << 30U;  // bytes
 
   /// Drops the oldest records that no longer fit.
   void set_budget(std::size_t bytes);
-  void add(const Recording* recording, unsigned iteration, std::shared_ptr<const StepRecord> record);
+  void add(std::uint64_t recording, unsigned iteration, std::shared_ptr<const StepRecord> record);
   /// Null when it is not kept.
-  [[nodiscard]] std::shared_ptr<const StepRecord> find(const Recording* recording, unsigned iteration) const;
+  [[nodiscard]] std::shared_ptr<const StepRecord> find(std::uint64_t recording, unsigned iteration) const;
   void clear();
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
   [[nodiscard]] std::size_t count() const { return kept_.size(); }
   [[nodiscard]] bool fits(std::size_t bytes) const { return bytes <= budget_; }
 
  private:
-  using Key = std::pair<const Recording*, unsigned>;
+  using Key = std::pair<std::uint64_t, unsigned>;
   struct Kept {
     Key key;
     std::shared_ptr<const StepRecord> record;

@@ -50,7 +50,7 @@ std::shared_ptr<StepRecord> redo_from_start(const JobContext& context, const Ste
     if (k == place.iteration) return record;
     if (context.cancelled()) throw Error("Doing the steps again was cancelled");
     apply_step(*record, positions);
-    context.bench().steps().add(&recording, k, std::move(record));
+    context.bench().steps().add(recording.number(), k, std::move(record));
   }
 }
 
@@ -130,7 +130,7 @@ FoundStep find_step(const JobContext& context, const DocumentPtr& document, cons
   const unsigned k = place.iteration;
   found.before = positions_before(place, making);
   Workbench& bench = context.bench();
-  found.record = bench.steps().find(recording, k);
+  found.record = bench.steps().find(recording->number(), k);
   if (found.record) return found;
   if (!place.not_redone.empty()) throw Error("The step cannot be looked into: " + place.not_redone);
   context.progress("Doing the step again", -1);
@@ -139,7 +139,7 @@ FoundStep find_step(const JobContext& context, const DocumentPtr& document, cons
   auto record = lone_step(making, found.before);
   if (!leads_to(*record, found.before, after)) record = redo_from_start(context, making, place);
   found.mismatch = elsewhere_text(*record, found.before, after);
-  if (found.mismatch.empty()) bench.steps().add(recording, k, record);
+  if (found.mismatch.empty()) bench.steps().add(recording->number(), k, record);
   found.record = std::move(record);
   return found;
 }

@@ -17,10 +17,11 @@ MeshStatePtr state_at(const JobContext& context, const SeekRequest& request, con
   Workbench& bench = context.bench();
   auto state = std::make_shared<MeshState>();
   state->iteration = request.shown;
-  state->geometry = bench.geometry(place.recording.get(), place.iteration);
+  const std::uint64_t recording = place.recording ? place.recording->number() : 0;
+  state->geometry = bench.geometry(recording, place.iteration);
   if (!state->geometry) {
     state->geometry = measure_geometry(*request.document, positions_of(*request.document, place));
-    bench.note_geometry(place.recording.get(), place.iteration, state->geometry);
+    bench.note_geometry(recording, place.iteration, state->geometry);
   }
   if (place.recording && place.recording->motion) {
     if (const auto& problem = place.recording->motion->measured_by)

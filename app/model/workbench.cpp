@@ -203,8 +203,9 @@ std::vector<std::shared_ptr<const RunPlan>> Workbench::read_plans(const Trace& t
 }
 
 Workbench::ProblemPtr Workbench::part_problem(const Recording& recording, std::size_t part) {
-  const auto found = std::ranges::find_if(
-      parts_, [&](const MadePart& made) { return made.recording == &recording && made.part == part; });
+  const auto found = std::ranges::find_if(parts_, [&](const MadePart& made) {
+    return made.recording == recording.number() && made.part == part;
+  });
   if (found != parts_.end()) {
     std::rotate(parts_.begin(), found, std::next(found));
     return parts_.front().problem;
@@ -214,7 +215,7 @@ Workbench::ProblemPtr Workbench::part_problem(const Recording& recording, std::s
   const auto& plans = recording.read_as()->plans;
   // The stages of a run differ by their exponent alone.
   const auto sibling = std::ranges::find_if(parts_, [&](const MadePart& made) {
-    if (made.recording != &recording || plans[made.part] != plans[part]) return false;
+    if (made.recording != recording.number() || plans[made.part] != plans[part]) return false;
     const TracePart& other = trace.parts[made.part];
     return other.base == wanted.base && other.holds == wanted.holds;
   });
@@ -229,18 +230,18 @@ Workbench::ProblemPtr Workbench::part_problem(const Recording& recording, std::s
     problem = std::make_shared<const SmoothingProblem>(make_part_problem(trace, wanted, *plans[part]));
   }
   while (parts_.size() >= kProblemsKept) parts_.pop_back();
-  parts_.push_front({&recording, part, problem});
+  parts_.push_front({recording.number(), part, problem});
   return problem;
 }
 
 Smoother& Workbench::smoother(const DocumentPtr& document, const SmoothingSettings& settings, PartKind kind,
                               Recording& recording) {
-  if (smoother_ && recording_ == &recording && at_ > 0 && at_ == recording.size()) return *smoother_;
+  if (smoother_ && recording_ == recording.number() && at_ > 0 && at_ == recording.size()) return *smoother_;
   smoother_.reset();
   smoothed_ = problem(document, settings, recording.base());
   smoother_ = make_smoother(*smoothed_, settings, kind);
   recording.note_fresh_start(kind, *smoothed_);
-  recording_ = &recording;
+  recording_ = recording.number();
   at_ = recording.size();
   return *smoother_;
 }
@@ -263,17 +264,17 @@ void Workbench::forget() {
   parts_.clear();
   smoother_.reset();
   smoothed_.reset();
-  recording_ = nullptr;
+  recording_ = 0;
   steps_.clear();
   geometries_.clear();
 }
 
-std::shared_ptr<const Geometry> Workbench::geometry(const Recording* recording, unsigned iteration) {
+std::shared_ptr<const Geometry> Workbench::geometry(std::uint64_t recording, unsigned iteration) {
   const auto found = geometries_.find({recording, iteration});
   return found == geometries_.end() ? nullptr : found->second.lock();
 }
 
-void Workbench::note_geometry(const Recording* recording, unsigned iteration,
+void Workbench::note_geometry(std::uint64_t recording, unsigned iteration,
                               const std::shared_ptr<const Geometry>& geometry) {
   std::erase_if(geometries_, [](const auto& entry) { return entry.second.expired(); });
   geometries_[{recording, iteration}] = geometry;

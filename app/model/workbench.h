@@ -60,9 +60,10 @@ class Workbench {
   void forget();
 
   [[nodiscard]] StepStore& steps() { return steps_; }
-  /// A measured geometry that is still in use somewhere; null otherwise.
-  [[nodiscard]] std::shared_ptr<const Geometry> geometry(const Recording* recording, unsigned iteration);
-  void note_geometry(const Recording* recording, unsigned iteration,
+  /// A measured geometry of a recording, by its number, that is still in use somewhere; null otherwise. 0:
+  /// of the mesh as opened.
+  [[nodiscard]] std::shared_ptr<const Geometry> geometry(std::uint64_t recording, unsigned iteration);
+  void note_geometry(std::uint64_t recording, unsigned iteration,
                      const std::shared_ptr<const Geometry>& geometry);
 
  private:
@@ -73,7 +74,7 @@ class Workbench {
     ProblemPtr problem;
   };
   struct MadePart {
-    const Recording* recording;
+    std::uint64_t recording;
     std::size_t part;
     ProblemPtr problem;
   };
@@ -88,11 +89,11 @@ class Workbench {
   PlanReader read_words_;           // none: the editor's settings
   ProblemPtr smoothed_;             // what the smoother works on
   std::unique_ptr<Smoother> smoother_;
-  const Recording* recording_ = nullptr;  // whose last step the smoother made
-  unsigned at_ = 0;                       // how many steps that had
-  std::shared_ptr<MotionTrack> moved_;    // whose run is kept
+  std::uint64_t recording_ = 0;         // whose last step the smoother made
+  unsigned at_ = 0;                     // how many steps that had
+  std::shared_ptr<MotionTrack> moved_;  // whose run is kept
   StepStore steps_;
-  std::map<std::pair<const Recording*, unsigned>, std::weak_ptr<const Geometry>> geometries_;
+  std::map<std::pair<std::uint64_t, unsigned>, std::weak_ptr<const Geometry>> geometries_;
 };
 
 /// A smoother on a problem that keeps all detail of its steps: what the settings name, or their polish. Keeps

@@ -473,6 +473,16 @@ TEST_F(TimelineTest, AFoldedCornerIsFoundAmongAllTriangles) {
   EXPECT_GT(found, 0U);
 }
 
+TEST(StepStore, ARecordingHasNoStepsOfOneThatIsGone) {
+  StepStore store;
+  auto recording = std::make_unique<Recording>();
+  store.add(recording->number(), 1, std::make_shared<StepRecord>());
+  EXPECT_TRUE(store.find(recording->number(), 1));
+  recording.reset();
+  recording = std::make_unique<Recording>();  // at the same address, as like as not
+  EXPECT_FALSE(store.find(recording->number(), 1));
+}
+
 TEST_F(TimelineTest, TheWordsOfSettingsReadBackAsTheSettings) {
   SmoothingSettings settings;
   settings.solver = Solver::lbfgs;
