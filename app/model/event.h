@@ -127,6 +127,7 @@ struct MotionInspected {
 };
 /// How far a vertex has come along its way, over the steps of a moving surface: entry k after k steps.
 struct MovingPath {
+  std::uint64_t number = 0;  ///< of the request
   unsigned branch = 0;
   Index vertex = 0;
   std::vector<double> by_motion, by_redistribution, distance;  ///< length units; distance: from its start
@@ -134,6 +135,7 @@ struct MovingPath {
 /// Another iteration is shown; `others` are those of the branches beside it.
 struct Sought {
   std::uint64_t number = 0;  ///< of the request
+  DocumentPtr document;      ///< whose runs were gone through
   MeshStatePtr state;
   std::vector<MeshStatePtr> others;
 };
@@ -169,6 +171,7 @@ struct Inspected {
 };
 /// Where a vertex was, over the iterations of a branch.
 struct Followed {
+  std::uint64_t number = 0;  ///< of the request
   unsigned branch = 0;
   Index vertex = 0;
   std::vector<Vec3> positions;
@@ -184,6 +187,7 @@ struct TraceOpened {
   std::vector<std::string> unknown_words;  ///< what it has no settings for, "--option value" each
   std::string not_redone;                  ///< why its steps cannot be made again; empty: they can
   DocumentPtr document;                    ///< of its mesh; null when it joins the runs of the open document
+  DocumentPtr joins;                       ///< that one
   MeshStatePtr state;
 };
 /// Recorded iterations were looked at for breakpoints.

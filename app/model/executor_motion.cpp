@@ -232,13 +232,17 @@ void Executor::operator()(MotionInspected& event) {
   if (path && path->branch == s_.timeline.cursor.branch && path->vertex == *s_.selected_vertex &&
       path->distance.size() == branch->moments.size())
     return;
-  MotionFollowRequest request{s_.timeline.cursor.branch, *s_.selected_vertex, branch->recording, {}};
+  s_.follow_number_ = ++s_.request_count_;
+  MotionFollowRequest request{
+      s_.follow_number_, s_.timeline.cursor.branch, *s_.selected_vertex, branch->recording, {}};
   for (unsigned k = 1; k < branch->moments.size(); ++k) request.places.push_back(place_of_step(*branch, k));
   s_.engine.post("follow", motion_follow_job(std::move(request)));
 }
 
 void Executor::operator()(MovingPath& event) {
-  if (s_.selected_vertex != event.vertex || s_.timeline.cursor.branch != event.branch) return;
+  if (event.number != s_.follow_number_ || s_.selected_vertex != event.vertex ||
+      s_.timeline.cursor.branch != event.branch)
+    return;
   s_.inspection.moving_path = std::move(event);
 }
 

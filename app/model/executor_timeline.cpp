@@ -130,9 +130,8 @@ void Executor::operator()(const Seek& command) {
 }
 
 void Executor::operator()(Sought& event) {
+  if (event.document != s_.document) return;
   if (event.number == s_.seek_number_) s_.seeking_ = false;
-  // With the iteration shown already or a document opened since, it comes too late.
-  if (event.state->positions().size() != s_.original->positions().size()) return;
   if (s_.timeline.cursor.iteration == 0 && event.state->iteration == 0 &&
       std::ranges::equal(event.state->positions(), s_.original->positions()))
     show(s_.moving() != nullptr ? with_geometry(event.state, s_.original->geometry) : s_.original);
@@ -240,11 +239,15 @@ void Executor::follow_selection() {
   if (path && path->branch == branch && path->vertex == *s_.selected_vertex &&
       path->positions.size() == last + 1)
     return;
-  s_.engine.post("follow", follow_job({branch, *s_.selected_vertex, path_of(branch, last)}));
+  s_.follow_number_ = ++s_.request_count_;
+  s_.engine.post("follow",
+                 follow_job({s_.follow_number_, branch, *s_.selected_vertex, path_of(branch, last)}));
 }
 
 void Executor::operator()(Followed& event) {
-  if (s_.selected_vertex != event.vertex || s_.timeline.cursor.branch != event.branch) return;
+  if (event.number != s_.follow_number_ || s_.selected_vertex != event.vertex ||
+      s_.timeline.cursor.branch != event.branch)
+    return;
   s_.inspection.path = VertexPath{event.branch, event.vertex, std::move(event.positions)};
 }
 
@@ -271,7 +274,9 @@ void Executor::operator()(const ShowBranches& command) {
     seek(s_.timeline.cursor.branch, s_.timeline.cursor.iteration);
 }
 
+// Answers that are still to come about them are nobody's.
 void Executor::forget_runs() {
+  s_.seek_number_ = s_.inspect_number_ = s_.follow_number_ = ++s_.request_count_;
   s_.timeline = {};
   s_.kept_steps_ = 0;
   s_.inspection = {};

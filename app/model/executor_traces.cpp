@@ -15,7 +15,9 @@ std::string listed(const std::vector<std::string>& words) {
 
 void Executor::operator()(const CompareBranches& command) {
   const auto count = s_.timeline.branches.size();
-  if (command.first >= count || command.second >= count || s_.is_running()) return;
+  if (command.first >= count || command.second >= count || s_.is_running() ||
+      s_.activity == Activity::loading)
+    return;
   const auto whole = [&](unsigned branch) { return path_of(branch, s_.timeline.branches[branch].tip()); };
   s_.engine.post("compare",
                  compare_job(whole(command.first), whole(command.second), command.first, command.second));
@@ -65,6 +67,11 @@ void Executor::operator()(const AddTrace& command) {
 
 void Executor::operator()(TraceOpened& event) {
   const bool alone = event.document != nullptr;
+  if (!alone && event.joins != s_.document) {
+    say(MessageKind::error, event.path.string() + ": another mesh was opened before the run was read",
+        Topic::reading);
+    return;
+  }
   if (alone) {
     Loaded loaded{std::move(event.document), std::move(event.state), {}};
     s_.smoothing = event.settings;

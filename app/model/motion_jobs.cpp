@@ -280,7 +280,7 @@ Engine::Job motion_follow_job(MotionFollowRequest request) {
     MotionShare& share = share_of(*recording.motion);
     std::vector<Vec3> before = recording.positions_at(0);
     const Vec3 start = before[request.vertex];
-    MovingPath path{request.branch, request.vertex, {0}, {0}, {0}};
+    MovingPath path{request.number, request.branch, request.vertex, {0}, {0}, {0}};
     for (unsigned k = 1; k <= request.places.size(); ++k) {
       if (context.others_wait() || context.cancelled()) return;
       std::vector<Vec3> after = before;

@@ -36,6 +36,7 @@ struct MotionInspectRequest {
 [[nodiscard]] Engine::Job motion_inspect_job(MotionInspectRequest request);
 
 struct MotionFollowRequest {
+  std::uint64_t number = 0;
   unsigned branch = 0;
   Index vertex = 0;
   std::shared_ptr<Recording> recording;

@@ -166,7 +166,7 @@ struct Session {
   std::function<void(Session&)> after_scan_;  // where no breakpoint stopped it
   bool seeking_ = false;
   std::uint64_t request_count_ = 0;
-  std::uint64_t inspect_number_ = 0, seek_number_ = 0;
+  std::uint64_t inspect_number_ = 0, seek_number_ = 0, follow_number_ = 0;
   std::vector<double> worst_values_;  // of worst_values_of_ by worst_values_by_
   std::shared_ptr<const Geometry> worst_values_of_;
   WorstBy worst_values_by_ = WorstBy::coloring;

@@ -69,7 +69,7 @@ StepSummary summary_of(const StepRecord& record, unsigned iteration, std::size_t
 Engine::Job seek_job(SeekRequest request) {
   return [request = std::move(request)](const JobContext& context) {
     context.progress("Going to iteration " + std::to_string(request.shown), -1);
-    Sought sought{request.number, state_at(context, request, request.place), {}};
+    Sought sought{request.number, request.document, state_at(context, request, request.place), {}};
     for (const Place& other : request.others) sought.others.push_back(state_at(context, request, other));
     context.publish(std::move(sought));
   };
@@ -124,7 +124,7 @@ Engine::Job scan_job(ScanRequest request) {
 
 Engine::Job follow_job(FollowRequest request) {
   return [request = std::move(request)](const JobContext& context) {
-    Followed followed{request.branch, request.vertex, {}};
+    Followed followed{request.number, request.branch, request.vertex, {}};
     bool given_way = false;
     walk(request.path, [&](const std::vector<Vec3>& positions) {
       given_way = given_way || context.others_wait();

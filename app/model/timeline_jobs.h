@@ -41,6 +41,7 @@ struct ScanRequest {
 [[nodiscard]] Engine::Job scan_job(ScanRequest request);
 
 struct FollowRequest {
+  std::uint64_t number = 0;
   unsigned branch = 0;
   Index vertex = 0;
   Path path;

@@ -177,6 +177,7 @@ Engine::Job open_trace_job(std::filesystem::path path, DocumentPtr document) {
     Trace trace = read_trace(path);
     TraceOpened opened;
     opened.path = path;
+    opened.joins = document;
     if (document && document->mesh().triangles != trace.triangles)
       throw MeshError(path.string() + ": the run is of another mesh than the open one");
     read_numbers(trace, opened);

@@ -288,6 +288,27 @@ TEST_F(TimelineTest, ARunOfAnotherMeshIsNotAdded) {
   EXPECT_EQ(session.messages.back().kind, MessageKind::error);
 }
 
+TEST_F(TimelineTest, WhatIsFoundOutAboutOneMeshIsNotTakenForAnother) {
+  open();
+  run(3);
+  act(SaveTrace{folder / "one.trace"});
+  // Asked while the same file, which is another document now, is being read.
+  execute(session, OpenFile{folder / "square.off"});
+  execute(session, SelectVertex{3});
+  execute(session, SetStage{Stage{}});
+  execute(session, ShowBranches{{0}});
+  execute(session, CompareBranches{0, 0});
+  execute(session, AddTrace{folder / "one.trace"});
+  finish(session);
+  EXPECT_FALSE(session.inspection.step);
+  EXPECT_FALSE(session.comparison);
+  EXPECT_TRUE(timeline().empty());
+  EXPECT_EQ(session.current->iteration, 0U);
+  EXPECT_EQ(session.current->geometry, session.original->geometry);
+  EXPECT_NE(session.messages.back().text.find("another mesh was opened"), std::string::npos);
+  EXPECT_FALSE(session.is_seeking());
+}
+
 TEST_F(TimelineTest, TwoBranchesPartWhereTheyForked) {
   open();
   run(4);
