@@ -1,14 +1,20 @@
 #include "editor/partner.h"
 
 #include <chrono>
-
-#include "mesh/error.h"
+#include <exception>
+#include <new>
+#include <utility>
 
 namespace isorelax::editor {
 namespace {
 
 bool fits(const model::DocumentPtr& file, const model::DocumentPtr& document) {
   return file && document && same_triangles(file->mesh(), document->mesh());
+}
+
+template <typename T>
+bool has_ended(const std::future<T>& reading) {
+  return reading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace
@@ -20,6 +26,8 @@ void Partner::remember(const model::Session& session, ui::Comparison& comparison
 }
 
 void Partner::read(const std::filesystem::path& path) {
+  std::erase_if(unwanted_, [](const std::future<FromFile>& reading) { return has_ended(reading); });
+  if (reading_.valid()) unwanted_.push_back(std::move(reading_));
   reading_ = std::async(std::launch::async, [path] {
     FromFile file;
     file.document = model::read_document(path);
@@ -31,11 +39,16 @@ void Partner::read(const std::filesystem::path& path) {
 }
 
 std::optional<model::Message> Partner::take_over(ui::Comparison& comparison) {
-  if (!reading_.valid() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+  if (!reading_.valid() || !has_ended(reading_)) return {};
+  const auto failed = [](const std::string& text) {
+    return model::Message{model::MessageKind::error, text, model::Topic::comparison};
+  };
   try {
     file_ = reading_.get();
-  } catch (const Error& error) {
-    return model::Message{model::MessageKind::error, error.what(), model::Topic::comparison};
+  } catch (const std::bad_alloc&) {
+    return failed("not enough memory to read the mesh to compare with");
+  } catch (const std::exception& error) {
+    return failed(error.what());
   }
   file_fits_ = fits(file_.document, document_);
   comparison.file = file_.document->path.filename().string();

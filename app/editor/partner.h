@@ -4,6 +4,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/view_scene.h"
 #include "model/session.h"
@@ -17,7 +18,7 @@ class Partner {
  public:
   /// Keeps the session's present state. Precondition: session.current.
   void remember(const model::Session& session, ui::Comparison& comparison);
-  /// Begins to read a mesh; take_over has it when it is there.
+  /// Begins to read a mesh; take_over has it when it is there. What was still being read is no longer wanted.
   void read(const std::filesystem::path& path);
   /// Takes over a mesh that has been read. Returns what is to be told of it, once.
   std::optional<model::Message> take_over(ui::Comparison& comparison);
@@ -45,6 +46,7 @@ class Partner {
   FromFile file_;
   bool file_fits_ = false;  ///< it has the document's triangles
   std::future<FromFile> reading_;
+  std::vector<std::future<FromFile>> unwanted_;  ///< until they end: nobody waits for them
 };
 
 }  // namespace isorelax::editor

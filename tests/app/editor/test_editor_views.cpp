@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -251,6 +252,29 @@ TEST_F(EditorViews, AChangeHasZeroInTheMiddleWhateverRangeIsTyped) {
   editor.act(model::SetView{settings});
   settle();
   EXPECT_TRUE(part("viewport") == change);
+}
+
+TEST(Partner, ASecondFileIsNotKeptWaitingForTheFirst) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path large = folder.make_square(60000, "large.off");
+  const std::filesystem::path small = folder.make_square();
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  Partner partner;
+  ui::Comparison comparison;
+  const auto take_over = [&] {
+    std::optional<model::Message> news;
+    while (!news) news = partner.take_over(comparison);
+  };
+  const auto begin = now();
+  partner.read(large);
+  take_over();
+  const auto whole = now() - begin;
+  partner.read(large);
+  const auto again = now();
+  partner.read(small);
+  EXPECT_LT(now() - again, whole / 2);
+  take_over();
+  EXPECT_EQ(comparison.file, "square.off");
 }
 
 TEST_F(EditorViews, ASavedPictureShowsRunsBesideEachOther) {
