@@ -35,7 +35,8 @@ class ScriptCommand : public Command {
   }
   void declare(CLI::App& app) override {
     app.add_option("SCRIPT", file_, "The script; files in it are named from its folder")->required();
-    app.add_option("--pictures", pictures_, "Folder for its pictures (default: the script's)")
+    app.add_option("--pictures", pictures_,
+                   "Folder for its pictures, made if need be (default: the script's)")
         ->type_name("FOLDER");
     app.add_option("--size", size_, "Size of the editor in pixels (default 1280x720)")->type_name("WxH");
     app.add_option("--scale", scale_, "Pixels per point, 2 for a high-resolution display")

@@ -77,6 +77,7 @@ class Player {
     std::ifstream file(options_.file);
     if (!file || std::filesystem::is_directory(options_.file)) check_readable(options_.file);
     require_room(size_, options_.scale);
+    make_pictures_folder();
     frames(2);
     std::string line;
     while (std::getline(file, line)) {
@@ -98,6 +99,13 @@ class Player {
   }
 
  private:
+  void make_pictures_folder() const {
+    if (options_.pictures.empty()) return;
+    std::error_code problem;
+    std::filesystem::create_directories(options_.pictures, problem);
+    if (problem) throw OutputError(options_.pictures.string(), problem.message());
+  }
+
   void frames(int count) {
     for (int k = 0; k < count; ++k)
       editor_.frame({.size = size_, .scale = options_.scale, .time = time_ += 0.2});
@@ -220,7 +228,11 @@ class Player {
   void click(Words words) {
     const auto& rects = editor_.interface().state().rects;
     const auto found = rects.find(words[1]);
-    if (found == rects.end()) throw UsageError("click: there is no \"" + words[1] + "\" to be seen");
+    if (found == rects.end()) {
+      std::string names;
+      for (const auto& [name, rect] : rects) names += (names.empty() ? "" : ", ") + name;
+      throw UsageError("click: there is no \"" + words[1] + "\" to be seen, but " + names);
+    }
     const ImVec2 at = found->second.center();
     auto& input = editor_.interface().input();
     input.push(ui::PointerMoved{at.x, at.y});
@@ -282,9 +294,9 @@ class Player {
                      .triangles = session.document->mesh().triangles,
                      .inverted_at_start = session.original->quality().inverted,
                      .stop = session.timeline.cursor.iteration == session.timeline.last()};
-    const bool holds = predicate.holds(now);
+    std::string fault = fault_at(predicate, now);
     if (!stage) execute(model::SetStage{});
-    return holds ? std::string() : "does not hold: " + predicate.text();
+    return fault;
   }
 
   // What is known of a moment, or of the mesh as opened; of the way of single vertices in a step nothing is.
@@ -306,7 +318,13 @@ class Player {
                      .inverted_at_start = session.original->quality().inverted,
                      .stop = session.timeline.cursor.iteration == session.timeline.last(),
                      .time = session.moving() != nullptr ? session.moment().time : 0};
-    return predicate.holds(now) ? std::string() : "does not hold: " + predicate.text();
+    return fault_at(predicate, now);
+  }
+
+  static std::string fault_at(const Predicate& predicate, const Moment& now) {
+    if (predicate.holds(now)) return {};
+    const std::string values = predicate.values(now);
+    return "does not hold: " + predicate.text() + (values.empty() ? "" : "; " + values);
   }
 
   static constexpr std::size_t kAnyNumber = 1000;

@@ -12,7 +12,7 @@ namespace isorelax::editor {
 /// How a session of the editor is done again from its script.
 struct ScriptOptions {
   std::filesystem::path file;           ///< the script; names in it are taken from its folder
-  std::filesystem::path pictures;       ///< folder for screenshots; empty: the script's
+  std::filesystem::path pictures;       ///< folder for screenshots, made if need be; empty: the script's
   render::PictureSize size{1280, 720};  ///< of the editor, until the script says otherwise
   float scale = 1;                      ///< pixels per point
   PlanReader read_plan{};               ///< for recorded runs; as the Editor's

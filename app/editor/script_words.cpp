@@ -53,11 +53,21 @@ constexpr std::array kModelWords{
 
 constexpr std::array<std::string_view, 5> kStageNames{"gradient", "tangent", "proposed", "control", "moved"};
 
-model::SetStage to_stage(Words words) {
+model::SetStage to_stage(Words words, const model::Session& session) {
   require(words, 1, 2);
   if (words[1] == "off") return {};
   model::Stage stage{static_cast<model::StageKind>(index_of(kStageNames, words[1]))};
-  if (words.size() > 2) stage.pass = std::max(1U, to_number<unsigned>(words[2])) - 1;
+  if (words.size() < 3) return {stage};
+  if (stage.kind != model::StageKind::control) throw UsageError("stage: only control has rounds");
+  const auto round = to_number<unsigned>(words[2]);
+  const model::Cursor& at = session.timeline.cursor;
+  const model::StepSummary* step = session.timeline.step(at.branch, at.iteration);
+  const unsigned rounds = step != nullptr ? step->fold_passes + step->energy_passes : round;
+  if (round == 0 || round > rounds)
+    throw UsageError(
+        "stage: there is no round " + words[2] +
+        (rounds == 0 ? ": the step has none at all" : ": they count from 1 to " + std::to_string(rounds)));
+  stage.pass = round - 1;
   return {stage};
 }
 
@@ -100,6 +110,13 @@ std::string stage_line(const model::SetStage& command) {
   return line;
 }
 
+/// A name that means the same in every folder: a script takes others from its own, wherever that is.
+std::string whole(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path, error);
+  return (error ? path : absolute.lexically_normal()).string();
+}
+
 /// All of them, whatever was set before; those, too, that the method has no use for but the colours may.
 std::string settings_line(const model::SmoothingSettings& settings) {
   std::string line = "set defaults";
@@ -107,6 +124,7 @@ std::string settings_line(const model::SmoothingSettings& settings) {
     line += " --method " + std::string(model::method_option(settings.method));
   model::SmoothingSettings others = settings;
   others.method = model::Method::near_isometry;
+  if (!others.reference_file.empty()) others.reference_file = whole(others.reference_file);
   for (const std::string& word : model::to_words(others)) line += " " + quote_word(word);
   return line;
 }
@@ -178,11 +196,8 @@ struct ToLine {
   std::string operator()(const model::Collect&) const { return {}; }
 
  private:
-  // Whole: a script takes other names from its own folder, wherever that is.
   static std::string path_line(const char* word, const std::filesystem::path& path) {
-    std::error_code error;
-    const auto whole = std::filesystem::absolute(path, error);
-    return word + quote_word((error ? path : whole).string());
+    return word + quote_word(whole(path));
   }
 };
 
@@ -231,12 +246,14 @@ model::Command of_triangle(Words words, const model::Session& session) {
       to_number_of(words[1], "triangle", session.document ? session.document->mesh().triangles.size() : 0)};
 }
 
-model::Command to_settings(Words words, const model::Session& session) {
+model::Command to_settings(Words words, const model::Session& session, const std::filesystem::path& folder) {
   std::vector<std::string> unknown;
   const bool anew = words.size() > 1 && words[1] == "defaults";
   const model::SmoothingSettings others = anew ? model::SmoothingSettings{} : session.smoothing;
-  const model::SmoothingSettings settings =
-      model::nearest_settings(words.subspan(anew ? 2 : 1), others, unknown);
+  model::SmoothingSettings settings = model::nearest_settings(words.subspan(anew ? 2 : 1), others, unknown);
+  const bool names_file = settings.reference == model::ReferenceKind::file &&
+                          std::ranges::find(words, "--reference") != words.end();
+  if (names_file) settings.reference_file = (folder / settings.reference_file).string();
   if (!unknown.empty())
     throw UsageError("set: \"" + unknown.front() + "\": no setting of the editor, or no value for it");
   return model::SetSmoothing{settings, "Settings"};
@@ -279,9 +296,9 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
       {"vertex", [](Words w, const S& s, const path&) { return of_vertex<model::SelectVertex>(w, s); }},
       {"triangle", [](Words w, const S& s, const path&) { return of_triangle(w, s); }},
       {"pin", [](Words w, const S& s, const path&) { return of_vertex<model::TogglePin>(w, s); }},
-      {"set", [](Words w, const S& s, const path&) { return to_settings(w, s); }},
+      {"set", [](Words w, const S& s, const path& f) { return to_settings(w, s, f); }},
       {"seek", [](Words w, const S& s, const path&) { return to_seek(w, s); }},
-      {"stage", [](Words w, const S&, const path&) -> model::Command { return to_stage(w); }},
+      {"stage", [](Words w, const S& s, const path&) -> model::Command { return to_stage(w, s); }},
       {"next-stage", [](Words w, const S&, const path&) { return step_stage(w, 1); }},
       {"previous-stage", [](Words w, const S&, const path&) { return step_stage(w, -1); }},
       {"limited", [](Words w, const S&, const path&) -> model::Command { return to_limited(w); }},
@@ -352,8 +369,9 @@ std::vector<std::string> split_words(std::string_view line) {
 
 std::string quote_word(const std::string& word) {
   if (!word.empty() && word.find_first_of(" \t'\"#") == std::string::npos) return word;
-  const char quote = word.find('"') == std::string::npos ? '"' : '\'';
-  return quote + word + quote;
+  std::string quoted = "\"";
+  for (const char c : word) quoted += c == '"' ? std::string("\"'\"'\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 std::string to_line(const model::Command& command) {

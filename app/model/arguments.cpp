@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "io/mesh_file.h"
@@ -73,6 +74,10 @@ bool read_number(std::string_view word, T& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
+bool read_number_between(double low, double high, std::string_view word, double& value) {
+  return read_number(word, value) && value >= low && value <= high;
+}
+
 /// Which of several words this is.
 template <typename Choice, typename NameOf>
 bool read_choice(const std::string& word, std::initializer_list<Choice> choices, const NameOf& name,
@@ -89,7 +94,7 @@ bool read_reference(const std::string& word, SmoothingSettings& s) {
     s.reference = ReferenceKind::mean_area;
   } else if (word.starts_with(kEdge)) {
     s.reference = ReferenceKind::edge_length;
-    return read_number(std::string_view(word).substr(kEdge.size()), s.edge_length);
+    return read_number(std::string_view(word).substr(kEdge.size()), s.edge_length) && s.edge_length > 0;
   } else if (word == "initial") {
     s.reference = ReferenceKind::initial;
   } else {
@@ -106,7 +111,7 @@ bool read_features(const std::string& word, SmoothingSettings& s) {
     s.features = FeatureRule::none;
   else
     s.features = FeatureRule::angle;
-  return s.features != FeatureRule::angle || read_number(word, s.feature_deg);
+  return s.features != FeatureRule::angle || read_number_between(0, 180, word, s.feature_deg);
 }
 
 bool read_pins(const std::string& word, SmoothingSettings& s) {
@@ -140,6 +145,7 @@ using Reader = std::function<bool(const std::string&, SmoothingSettings&)>;
 
 const std::map<std::string, Reader>& readers() {
   using S = SmoothingSettings;
+  constexpr double kLargest = std::numeric_limits<double>::max();
   static const std::map<std::string, Reader> kReaders{
       {"--method",
        [](const std::string& w, S& s) {
@@ -151,8 +157,8 @@ const std::map<std::string, Reader>& readers() {
          return read_choice(w, {Solver::automatic, Solver::jacobi, Solver::newton, Solver::lbfgs},
                             solver_option, s.solver);
        }},
-      {"--exponent", [](const std::string& w, S& s) { return read_number(w, s.exponent); }},
-      {"--mu", [](const std::string& w, S& s) { return read_number(w, s.mu_a); }},
+      {"--exponent", [](const std::string& w, S& s) { return read_number_between(1, 64, w, s.exponent); }},
+      {"--mu", [](const std::string& w, S& s) { return read_number_between(0, 1, w, s.mu_a); }},
       {"--reference", read_reference},
       {"--boundary",
        [](const std::string& w, S& s) {
@@ -162,7 +168,8 @@ const std::map<std::string, Reader>& readers() {
        }},
       {"--features", read_features},
       {"--iterations", [](const std::string& w, S& s) { return read_number(w, s.iterations); }},
-      {"--tolerance", [](const std::string& w, S& s) { return read_number(w, s.tolerance); }},
+      {"--tolerance",
+       [](const std::string& w, S& s) { return read_number_between(0, kLargest, w, s.tolerance); }},
       {"--pin", read_pins},
       {"--polish",
        [](const std::string& w, S& s) {

@@ -1,5 +1,7 @@
 #include "trace/predicate.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -29,8 +31,9 @@ double divide(double a, double b) {
 /// Recursive descent; each rule returns what it read as a function of the moment.
 class Parser {
  public:
-  Parser(std::string_view text, std::vector<Predicate::Element>& elements)
-      : text_(text), elements_(elements) {}
+  Parser(std::string_view text, std::vector<Predicate::Element>& elements,
+         std::vector<Predicate::Named>& named)
+      : text_(text), elements_(elements), named_(named) {}
 
   Value parse() {
     Value value = either();
@@ -152,9 +155,15 @@ class Parser {
     if (word == "vertex") return element(word, vertex_fields());
     if (word == "triangle") return element(word, triangle_fields());
     for (const PredicateName& known : predicate_names())
-      if (known.name == word) return known.value;
+      if (known.name == word) return note(std::string(word), known.value);
     at_ = start;
     fail("unknown name " + std::string(word));
+  }
+
+  Value note(std::string name, Value value) {
+    if (std::ranges::find(named_, name, &Predicate::Named::name) == named_.end())
+      named_.push_back({std::move(name), value});
+    return value;
   }
 
   Value element(std::string_view kind, std::span<const PredicateField> fields) {
@@ -173,10 +182,11 @@ class Parser {
     const std::string_view word = name();
     for (const PredicateField& field : fields) {
       if (field.name != word) continue;
-      return [id, is_vertex, value = field.value](const Moment& m) {
+      const auto read = [id, is_vertex, value = field.value](const Moment& m) {
         const std::size_t count = is_vertex ? m.positions.size() : m.triangles.size();
         return id < count ? value(m, id) : std::numeric_limits<double>::quiet_NaN();
       };
+      return note(std::string(kind) + "(" + std::to_string(id) + ")." + std::string(word), read);
     }
     at_ = start;
     std::string known;
@@ -204,6 +214,7 @@ class Parser {
   static constexpr int kDeepest = 200;
   std::string_view text_;
   std::vector<Predicate::Element>& elements_;
+  std::vector<Predicate::Named>& named_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
@@ -221,7 +232,7 @@ void list(std::string& text, const std::string& before, std::span<const Entry> e
 
 Predicate::Predicate(std::string text) : text_(std::move(text)) {
   try {
-    value_ = Parser(text_, elements_).parse();
+    value_ = Parser(text_, elements_, named_).parse();
   } catch (const Mistake& mistake) {
     throw PredicateError(text_, mistake.column, mistake.reason);
   }
@@ -240,6 +251,18 @@ void Predicate::check(std::size_t vertices, std::size_t triangles) const {
 bool Predicate::holds(const Moment& moment) const {
   const double value = value_(moment);
   return value != 0 && !std::isnan(value);
+}
+
+std::string Predicate::values(const Moment& moment) const {
+  std::string text;
+  for (const Named& named : named_) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), named.value(moment),
+                                   std::chars_format::general, 9)
+                         .ptr;
+    text += (text.empty() ? "" : ", ") + named.name + " = " + std::string(digits.data(), end);
+  }
+  return text;
 }
 
 std::string Predicate::reference() {

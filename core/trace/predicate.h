@@ -56,6 +56,8 @@ class Predicate {
 
   /// Whether it holds. A vertex or triangle that does not exist has no value: comparisons with it are false.
   [[nodiscard]] bool holds(const Moment& moment) const;
+  /// What its names stand for at a moment: "min_angle = 4.5, vertex(812).alpha = 0"; empty where it has none.
+  [[nodiscard]] std::string values(const Moment& moment) const;
   [[nodiscard]] const std::string& text() const { return text_; }
 
   /// Every name and field with its meaning, one per line: for --help and the editor.
@@ -68,10 +70,16 @@ class Predicate {
     Index id;
     std::size_t column;  ///< of the id, from 1
   };
+  /// A name in the text, with its vertex or triangle.
+  struct Named {
+    std::string name;
+    Value value;
+  };
 
  private:
   std::string text_;
   std::vector<Element> elements_;
+  std::vector<Named> named_;  // each once
   Value value_;
 };
 

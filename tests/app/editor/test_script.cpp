@@ -58,7 +58,9 @@ TEST_F(ScriptTest, AnExpectationThatDoesNotHoldIsToldWithItsLine) {
   (void)folder.make_square();
   const ScriptResult result = play("open square.off\nstep\nexpect iteration == 2\nexpect iteration == 1\n");
   ASSERT_EQ(result.failures.size(), 1U);
-  EXPECT_NE(result.failures[0].find("line 3"), std::string::npos) << result.failures[0];
+  EXPECT_NE(result.failures[0].find("line 3: does not hold: iteration == 2; iteration = 1"),
+            std::string::npos)
+      << result.failures[0];
 }
 
 TEST_F(ScriptTest, TheMeshAsOpenedCanBeLookedAt) {
@@ -73,6 +75,7 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   EXPECT_NE(complaint("seek\n").find("line 1"), std::string::npos);
   EXPECT_NE(complaint("\nopen missing.off\n").find("line 2"), std::string::npos);
   EXPECT_NE(complaint("click nowhere\n").find("nowhere"), std::string::npos);
+  EXPECT_NE(complaint("click nowhere\n").find(", welcome-open"), std::string::npos) << "what is there";
   EXPECT_NE(complaint("break min_angle <\n").find("column"), std::string::npos);
   for (const char* line : {"expect vertex(99999).x > 0", "break vertex(99999).x > 0"})
     EXPECT_NE(
@@ -98,6 +101,10 @@ TEST_F(ScriptTest, WhatIsNotThereIsRefusedWithItsLine) {
   EXPECT_NE(complaint("vertex 0\n").find("none at all"), std::string::npos);
   EXPECT_NE(complaint("run 5\n").find("no mesh is open"), std::string::npos);
   EXPECT_NE(complaint("screenshot a.jpg\n").find(".png"), std::string::npos);
+  EXPECT_NE(complaint(open + "stage control 99\n").find("line 4: stage: there is no round 99"),
+            std::string::npos);
+  EXPECT_NE(complaint(open + "stage moved 1\n").find("only control"), std::string::npos);
+  EXPECT_THROW((void)play(open + "set --mu 7\n"), UsageError);
   const std::string settings = complaint(open + "set --mu banana\n");
   EXPECT_NE(settings.find("--mu banana"), std::string::npos) << settings;
 }
@@ -153,6 +160,16 @@ TEST_F(ScriptTest, AVertexOutOfSightIsFlownToAndInspected) {
   EXPECT_TRUE(editor.sees_selection());
   editor.look("back");
   EXPECT_FALSE(editor.sees_selection());
+}
+
+TEST_F(ScriptTest, AReferenceIsTakenFromTheScriptsFolderAndPicturesHaveTheirFolderMade) {
+  (void)folder.make_square();
+  std::ofstream(folder / "a.script")
+      << "open square.off\nset --reference square.off\nstep\nscreenshot a.png\n";
+  const ScriptResult result = run_script(
+      {.file = folder / "a.script", .pictures = folder / "new" / "one", .size = kSize, .scale = 1});
+  ASSERT_EQ(result.pictures.size(), 1U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "new" / "one" / "a.png"));
 }
 
 TEST_F(ScriptTest, HelpListsEveryCommand) {
@@ -243,7 +260,8 @@ TEST(ScriptWords, QuotesAndCommentsAreUnderstood) {
   EXPECT_EQ(split_words("  open 'a b.off'  # c"), (std::vector<std::string>{"open", "a b.off"}));
   EXPECT_EQ(split_words("a\"b c\"d"), (std::vector<std::string>{"ab cd"}));
   EXPECT_TRUE(split_words("# nothing").empty());
-  EXPECT_EQ(split_words(quote_word("it's #1")), (std::vector<std::string>{"it's #1"}));
+  for (const std::string word : {"it's #1", "a \"b\" c", "it's \"both\"", "\"", ""})
+    EXPECT_EQ(split_words(quote_word(word)), (std::vector<std::string>{word})) << quote_word(word);
 }
 
 TEST(ScriptWords, CommandsReadBackAsTheyWere) {

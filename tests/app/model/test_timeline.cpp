@@ -404,7 +404,7 @@ TEST_F(TimelineTest, ARunThatHasEndedShowsItsEndBesideLongerOnes) {
     s.method = Method::laplacian;
     s.iterations = 2;
   });
-  act(Run{});
+  act(model::Run{});
   act(Seek{6, {}});
   EXPECT_EQ(session.shared_iteration(), 2U) << "alone it has no more than its own";
   act(ShowBranches{{0}});
@@ -522,6 +522,15 @@ TEST_F(TimelineTest, TheWordsOfSettingsReadBackAsTheSettings) {
   EXPECT_EQ(*from_words(words), settings);
   EXPECT_FALSE(from_words(std::vector<std::string>{"--unheard-of", "1"}));
   EXPECT_FALSE(from_words(std::vector<std::string>{"--mu", "much"}));
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--mu", "7"},
+                                             {"--mu", "-0.1"},
+                                             {"--mu", "nan"},
+                                             {"--exponent", "0.5"},
+                                             {"--tolerance", "-1"},
+                                             {"--features", "200"},
+                                             {"--reference", "equilateral:0"}})
+    EXPECT_FALSE(from_words(wrong)) << wrong[0] << " " << wrong[1];
 }
 
 }  // namespace

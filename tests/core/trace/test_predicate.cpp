@@ -19,15 +19,17 @@ class PredicateTest : public ::testing::Test {
     numbers.quality = {4.5, 150, 40, 2};
     numbers.limits[4] = 1;
   }
-  [[nodiscard]] bool holds(const std::string& text) const {
-    return Predicate(text).holds({.iteration = 40,
-                                  .numbers = numbers,
-                                  .record = step,
-                                  .positions = positions,
-                                  .triangles = triangles,
-                                  .inverted_at_start = 2,
-                                  .stop = false});
+  [[nodiscard]] Moment moment() const {
+    return {.iteration = 40,
+            .numbers = numbers,
+            .record = step,
+            .positions = positions,
+            .triangles = triangles,
+            .inverted_at_start = 2,
+            .stop = false};
   }
+  [[nodiscard]] bool holds(const std::string& text) const { return Predicate(text).holds(moment()); }
+  [[nodiscard]] std::string values(const std::string& text) const { return Predicate(text).values(moment()); }
 
   std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   std::vector<Triangle> triangles{{0, 1, 2}};
@@ -74,6 +76,12 @@ TEST_F(PredicateTest, ShowsWhatAMeshDoesNotHaveAtItsPlace) {
   };
   EXPECT_EQ(column(2, 5), 8U);
   EXPECT_EQ(column(3, 4), 30U);
+}
+
+TEST_F(PredicateTest, TellsWhatItsNamesStandFor) {
+  EXPECT_EQ(values("iteration == 41 || vertex( 1 ).limits > 20 || iteration < 2"),
+            "iteration = 40, vertex(1).limits = 16");
+  EXPECT_EQ(values("1 < 2"), "");
 }
 
 TEST_F(PredicateTest, BindsAsInC) {
