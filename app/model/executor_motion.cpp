@@ -132,7 +132,8 @@ bool Executor::move_over_recorded(unsigned steps) {
     for (const MotionEntry& moment : branch.moments) times.push_back(moment.time);
     s_.engine.post(
         "run",
-        motion_scan_job({branch.recording, branch.start, std::move(times), {at, from, to, s_.breakpoints}}));
+        motion_scan_job(
+            {branch.recording, branch.start, std::move(times), {at, from, to, s_.breakpoints, !then}}));
     s_.after_scan_ = std::move(then);
     s_.scan_to_ = to;
     return true;

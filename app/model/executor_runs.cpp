@@ -160,10 +160,11 @@ bool Executor::run_over_recorded(unsigned iterations) {
   if (any_active(s_.breakpoints)) {
     s_.activity = Activity::running;
     s_.broken_by.clear();
-    s_.engine.post(
-        "run",
-        scan_job(
-            {s_.document, branch.settings, branch.recording, branch.start, {at, from, to, s_.breakpoints}}));
+    s_.engine.post("run", scan_job({s_.document,
+                                    branch.settings,
+                                    branch.recording,
+                                    branch.start,
+                                    {at, from, to, s_.breakpoints, !goes_on}}));
     s_.after_scan_ = nullptr;
     if (goes_on)
       s_.after_scan_ = go_on;

@@ -310,7 +310,7 @@ Engine::Job motion_scan_job(MotionScanRequest request) {
             .positions = after,
             .triangles = trace.triangles,
             .inverted_at_start = trace.quality.inverted,
-            .stop = false,
+            .stop = request.range.stops_at(k),
             .time = request.times[own]});
     });
   };

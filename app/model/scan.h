@@ -16,6 +16,9 @@ struct ScanRange {
   unsigned branch = 0;
   unsigned from = 0, to = 0;
   std::vector<Breakpoint> breakpoints;
+  bool ends = false;  ///< with `to` the run ends
+
+  [[nodiscard]] bool stops_at(unsigned iteration) const { return ends && iteration == to; }
 };
 using ShowMoment = std::function<void(const Moment&)>;
 /// Looks at one after the other, `look(iteration, show)`, which shows its moment once, until a breakpoint

@@ -117,7 +117,7 @@ Engine::Job scan_job(ScanRequest request) {
             .positions = after,
             .triangles = trace.triangles,
             .inverted_at_start = trace.quality.inverted,
-            .stop = false});
+            .stop = request.range.stops_at(k)});
     });
   };
 }

@@ -202,6 +202,21 @@ TEST_F(TimelineTest, ABreakpointStopsARunAndALogOnlyTells) {
   EXPECT_EQ(timeline().branches.size(), 1U);
 }
 
+TEST_F(TimelineTest, TheEndOfARunIsFoundWhereItIsRecorded) {
+  open();
+  run(4);
+  act(SetBreakpoints{{make_breakpoint("stop", BreakAction::stop)}});
+  act(Seek{0, {}});
+  act(model::Run{});
+  EXPECT_EQ(session.broken_by, "stop");
+  EXPECT_EQ(timeline().cursor.iteration, 4U);
+  // Where the run goes on after what is recorded, its end is another one.
+  act(Seek{1, {}});
+  run(6);
+  EXPECT_EQ(session.broken_by, "stop");
+  EXPECT_EQ(timeline().cursor.iteration, 7U);
+}
+
 TEST_F(TimelineTest, OnlyTheNewestHitsAreKept) {
   open(30);
   const std::vector<Breakpoint> logs(300, make_breakpoint("iteration > 0", BreakAction::log));
