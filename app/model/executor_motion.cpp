@@ -192,7 +192,8 @@ void Executor::operator()(MotionEnded& event) {
     else if (event.cancelled)
       branch.ended = "Paused at " + at;
     else if (has_arrived(branch))
-      branch.ended = "Arrived at " + at + " after " + std::to_string(branch.moments.back().step) + " steps";
+      branch.ended = "Arrived at " + at + " after " + std::to_string(branch.moments.back().step) +
+                     (branch.moments.back().step == 1 ? " step" : " steps");
     else
       branch.ended = at;
     if (branch.ended != at) say(MessageKind::info, branch.ended);

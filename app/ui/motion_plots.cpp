@@ -47,23 +47,25 @@ std::vector<MotionFigure> motion_figures() {
       {"Folded edges", "Edges over which the surface turns by more than 120 degrees.",
        [](const MotionEntry& m) { return static_cast<double>(m.measure.folded_edges); }, "%.0f"},
       {"Area", "Of the whole surface, squared units of the file.",
-       [](const MotionEntry& m) { return m.measure.area; }, "%.4g"},
+       [](const MotionEntry& m) { return m.measure.area; }, "%.4g", " units\xC2\xB2"},
       {"Volume change", "Of the enclosed volume since the start of the motion.", volume_change, "%.4f", " %"},
       {"Off the surface",
        "Largest distance between the mesh and the surface that the motion made of the start, at vertices and "
        "middles of edges; of tangent moves that of one step. Units of the file.",
-       [](const MotionEntry& m) { return m.report.deviation.max; }, "%.3g"},
+       [](const MotionEntry& m) { return m.report.deviation.max; }, "%.3g", " units"},
       {"Error",
        "Largest distance of a vertex from the exact surface, where that is known. Units of the file.",
-       largest_error, "%.3g"},
+       largest_error, "%.3g", " units"},
   };
 }
 
 void figure_cell(const Ui& ui, const MotionFigure& figure, double value, ImU32 ink) {
-  const std::string text =
-      number_text(figure.format, value) + (std::isfinite(value) ? std::string(figure.unit) : "");
-  const float width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::TableNextColumn();
+  const std::string number = number_text(figure.format, value);
+  std::string text = number + (std::isfinite(value) ? std::string(figure.unit) : "");
+  // In a narrow column the number is worth more.
+  if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x) text = number;
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
   text_in(ui.fonts.text, ink, text);
 }

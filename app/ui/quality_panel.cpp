@@ -22,11 +22,6 @@ struct Figure {
   Better better = Better::larger;
 };
 
-/// Without the sign of a zero that is shown with three decimals.
-double shown_zero(double value) {
-  return std::abs(value) < 0.0005 ? 0 : value;
-}
-
 std::array<Figure, 11> figures(const model::Session& session) {
   const model::MeshState& original = *session.original;
   const model::MeshState& current = *session.current;
@@ -38,7 +33,7 @@ std::array<Figure, 11> figures(const model::Session& session) {
   const double away = unmoved ? 0 : known ? 100 * session.surface->deviation.max : nothing;
   const double volume = unmoved ? 0
                         : known && session.surface->deviation.has_volume
-                            ? shown_zero(100 * session.surface->deviation.volume_change)
+                            ? 100 * session.surface->deviation.volume_change
                             : nothing;
   const bool is_far = known && session.surface->is_over;
   return {{

@@ -12,9 +12,9 @@ constexpr std::size_t kMostBeside = 3;
 std::string range_text(const model::Branch& branch) {
   if (branch.motion) {
     const double time = branch.moments.empty() ? 0 : branch.moments.back().time;
-    return std::to_string(branch.steps.size()) + " steps, to t = " + number_text("%.4g", time);
+    return counted(branch.steps.size(), "step", "steps") + ", to t = " + number_text("%.4g", time);
   }
-  return branch.start == 0 ? std::to_string(branch.tip()) + (branch.tip() == 1 ? " iteration" : " iterations")
+  return branch.start == 0 ? counted(branch.tip(), "iteration", "iterations")
                            : "from " + std::to_string(branch.start) + " to " + std::to_string(branch.tip());
 }
 
@@ -87,7 +87,7 @@ void draw_difference(const Ui& ui) {
   }
   wrapped(ui.fonts.text, color::kText,
           "They part at iteration " + std::to_string(found.parting->iteration) + ": " +
-              count_text(found.parting->vertices) + " vertices differ there, by up to " +
+              counted(found.parting->vertices, "vertex differs", "vertices differ") + " there, by up to " +
               number_text("%.3g", found.parting->largest) + "; in the end by " +
               number_text("%.3g", found.distance_at_end) + ".");
   mark_area(ui, "parting", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});

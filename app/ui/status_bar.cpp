@@ -11,8 +11,8 @@ std::string describe_document(const model::Session& s) {
   if (!s.document) return "No mesh";
   const TriangleMesh& mesh = s.document->mesh();
   return s.document->path.filename().string() + (s.has_unsaved_changes() ? " *" : "") + "   " +
-         count_text(mesh.vertex_count()) + " vertices   " + count_text(mesh.triangle_count()) +
-         " triangles   " +
+         counted(mesh.vertex_count(), "vertex", "vertices") + "   " +
+         counted(mesh.triangle_count(), "triangle", "triangles") + "   " +
          (s.moving() != nullptr ? "t = " + number_text("%.4g", s.moment().time)
                                 : "iteration " + count_text(s.current->iteration));
 }

@@ -234,12 +234,19 @@ std::string count_text(std::size_t count) {
   return digits;
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view more) {
+  return count_text(count) + " " + std::string(count == 1 ? one : more);
+}
+
 std::string number_text(const char* format, double value) {
   if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
   if (std::isnan(value)) return "\xE2\x80\x93";  // en dash
   char text[64];
   std::snprintf(text, sizeof text, format, value);
-  return text;
+  // A zero has no sign, nor has what is shown as one.
+  const std::string shown = text;
+  const bool is_zero = shown.find_first_of("123456789") == std::string::npos;
+  return is_zero && shown.starts_with('-') ? shown.substr(1) : shown;
 }
 
 }  // namespace isorelax::ui

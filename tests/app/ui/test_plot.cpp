@@ -48,6 +48,14 @@ TEST(CountText, GroupsDigitsByThree) {
             "567");
 }
 
+TEST(NumberText, AZeroHasNoSign) {
+  EXPECT_EQ(number_text("%.4f", -1e-6), "0.0000");
+  EXPECT_EQ(number_text("%.4f", -1e-3), "-0.0010");
+  EXPECT_EQ(number_text("%.3g", -1e-6), "-1e-06");
+  EXPECT_EQ(counted(1, "triangle", "triangles"), "1 triangle");
+  EXPECT_EQ(counted(1000, "triangle", "triangles"), count_text(1000) + " triangles");
+}
+
 TEST(Shortcuts, NoTwoShareAKey) {
   const auto all = shortcuts();
   for (std::size_t a = 0; a < all.size(); ++a)
