@@ -32,12 +32,13 @@ std::string name_of_before(const Comparison& comparison) {
   return "Original";
 }
 
-// At the left of a place where `room` is left of a pane's width, or at its right.
+// At the left of a place where `room` is left of a pane's width, or at its right. Of a run it has the colour
+// that the run has everywhere.
 void draw_name(const Ui& ui, ImDrawList& draw, const std::string& whole, ImVec2 at, float room,
-               bool right_of_x) {
+               bool right_of_x, ImU32 ink = 0) {
   const auto [x, y] = at;
   ImFont& font = *ui.fonts.text;
-  const ImVec2 pad{ui.px(8), ui.px(4)};
+  const ImVec2 pad{ui.px(ink != 0 ? 12 : 8), ui.px(4)};
   const std::string name = fitted(font, whole, room - 2 * (ui.px(10) + pad.x));
   if (name.empty()) return;
   const ImVec2 size = font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, name.c_str());
@@ -45,6 +46,9 @@ void draw_name(const Ui& ui, ImDrawList& draw, const std::string& whole, ImVec2 
   const ImVec2 low{left, y - ui.px(12) - size.y - 2 * pad.y};
   draw.AddRectFilled(low, {low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y}, IM_COL32(34, 37, 43, 225),
                      ui.px(5));
+  if (ink != 0)
+    draw.AddRectFilled(low, {low.x + ui.px(4), low.y + size.y + 2 * pad.y}, ink, ui.px(5),
+                       ImDrawFlags_RoundCornersLeft);
   draw.AddText(&font, font.FontSize, {low.x + pad.x, low.y + pad.y}, color::kText, name.c_str());
 }
 
@@ -168,7 +172,8 @@ void draw_grid(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportI
     if (branch >= s.timeline.branches.size()) continue;
     const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
     draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at),
-              {cell.low.x, cell.high.y}, cell.width(), true);
+              {cell.low.x, cell.high.y}, cell.width(), true,
+              color::kBranches[branch % std::size(color::kBranches)]);
     mark_area(ui, "view/" + std::to_string(k), cell);
   }
 }

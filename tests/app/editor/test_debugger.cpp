@@ -1,9 +1,24 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "app/editor/editor_fixture.h"
 
 namespace isorelax::editor {
 namespace {
+
+/// Pixels of exactly this colour.
+std::size_t count_color(const render::Image& image, ImU32 color) {
+  const std::array<std::uint8_t, 3> wanted{static_cast<std::uint8_t>(color >> IM_COL32_R_SHIFT),
+                                           static_cast<std::uint8_t>(color >> IM_COL32_G_SHIFT),
+                                           static_cast<std::uint8_t>(color >> IM_COL32_B_SHIFT)};
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); k += 4)
+    if (std::equal(wanted.begin(), wanted.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(k)))
+      ++count;
+  return count;
+}
 
 /// The debugger as a person uses it: by keys, clicks and pictures.
 class DebuggerTest : public EditorTest {
@@ -164,6 +179,12 @@ TEST_F(DebuggerTest, RunsStandSideBySide) {
   click("teach");
   EXPECT_TRUE(editor.interface().state().rects.contains("view/2"));
   keep("three_methods");
+  const model::Session& s = editor.session();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const unsigned run = k == 0 ? s.timeline.cursor.branch : s.shown_branches.at(k - 1);
+    EXPECT_GT(count_color(part("view/" + std::to_string(k)), ui::color::kBranches[run]), 40U)
+        << "the name of view " << k << " has the colour of its run";
+  }
   press(ui::Key::home);
   keep("three_methods_start");
 }
