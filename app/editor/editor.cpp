@@ -174,12 +174,18 @@ void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& vi
     key.reasons = session_.view.reasons;
     key.pinned = session_.smoothing.pinned;
   }
+  // Of a split the left part is the other picture's.
+  if (&picture == &before_ && interface_.state().comparison.mode == ui::CompareMode::split) key.dots = dots_;
   if (picture.drawn && key == picture.key) return;
   render::Scene scene = picture.scene.make(shown, view);
   clear_overlays(scene);
   // One legend serves both.
   if (lines_only) scene.legend.reset();
-  if (&picture == &current_) add_step(session_, shown.state->positions(), scene);
+  scene.key = key.dots;
+  if (&picture == &current_) {
+    add_step(session_, shown.state->positions(), scene);
+    dots_ = scene.key;
+  }
   if (lines_only) {
     scene.transparent = true;
     scene.notes.clear();

@@ -79,6 +79,7 @@ class Editor {
     std::optional<unsigned> limit;
     bool reasons = false;
     std::vector<Index> pinned;
+    std::vector<render::Swatch> dots;  ///< told in it, and drawn in another one
     bool operator==(const PictureKey&) const = default;
   };
   /// A picture that is kept until something about it changes.
@@ -152,7 +153,8 @@ class Editor {
   float scale_ = 1;
   double time_ = 0;
   bool acted_ = false;
-  bool saving_ = false;  ///< a picture, which nothing is laid over
+  std::vector<render::Swatch> dots_;  ///< what those in the present picture mean
+  bool saving_ = false;               ///< a picture, which nothing is laid over
   bool quit_ = false;
   Times times_;
 };

@@ -109,14 +109,21 @@ unsigned main_limit(std::uint16_t limits) {
 void add_reasons(const model::Session& session, std::span<const Vec3> x, render::Scene& scene) {
   const auto& limits = session.inspection.step->record->limits;
   const double diameter = limits.size() > 20000 ? 4 : 7;
+  std::array<bool, 8> occurs{};
   for (std::size_t v = 0; v < limits.size(); ++v) {
     unsigned bit = main_limit(limits[v]);
     if (session.selected_limit) {
       if ((limits[v] >> *session.selected_limit & 1U) == 0) continue;
       bit = *session.selected_limit;
     }
-    if (bit < 8) scene.markers.push_back({x[v], color_of(ui::color::kLimits[bit]), diameter});
+    if (bit >= 8) continue;
+    scene.markers.push_back({x[v], color_of(ui::color::kLimits[bit]), diameter});
+    occurs.at(bit) = true;
   }
+  for (unsigned bit = 0; bit < 8; ++bit)
+    if (occurs.at(bit))
+      scene.key.push_back(
+          {color_of(ui::color::kLimits[bit]), std::string(limit_name(static_cast<Limit>(1U << bit)))});
 }
 
 }  // namespace

@@ -177,6 +177,39 @@ Overlay make_caption(const Scene& scene, PictureSize size, double scale) {
   return {canvas.image(), edge, top};
 }
 
+void disc(Canvas& canvas, double x, double y, double radius, Color color) {
+  for (double row = -radius; row < radius; ++row) {
+    const double middle = std::min(row + 0.5, radius);
+    const double half = std::sqrt(std::max(0.0, radius * radius - middle * middle));
+    canvas.fill(x - half, y + row, x + half, y + std::min(row + 1, radius), color);
+  }
+}
+
+/// A dot and its meaning in each row, as many rows as have room.
+Overlay make_key(const Scene& scene, PictureSize size, double scale) {
+  Font font(kTextSize * scale);
+  const double pad = 0.5 * kPad * scale;
+  const double indent = pad + kBarWidth * scale;
+  double width = 0;
+  for (const Swatch& kind : scene.key) width = std::max(width, font.width(kind.text));
+  const double line = 0.9 * kLine * scale;
+  const double caption = scene.caption.empty() ? 0 : kLine * scale;
+  const double bottom = kEdge * scale - pad + scene.caption_lift * scale + caption;
+  const auto room = static_cast<std::size_t>(std::max(1.0, 0.5 * size.height / line));
+  const std::size_t rows = std::min(scene.key.size(), room);
+  const int height = static_cast<int>(std::ceil(static_cast<double>(rows) * line));
+  const int top = static_cast<int>(std::lround(size.height - bottom)) - height;
+  Canvas canvas(static_cast<int>(std::ceil(indent + width + pad)), height);
+  veil(canvas, scene, top, size);
+  const Inks inks = inks_for(scene);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double middle = (static_cast<double>(k) + 0.5) * line;
+    disc(canvas, pad + 4 * scale, middle, 4 * scale, scene.key[k].color);
+    canvas.text(font, scene.key[k].text, indent, middle + 0.5 * font.cap_height(), Align::left, inks.text);
+  }
+  return {canvas.image(), static_cast<int>(std::lround(kEdge * scale - pad)), top};
+}
+
 /// Lines at the upper left, in so much of the picture's width; a tab begins the second column, whose numbers
 /// end at one edge. Where both columns do not fit, the numbers stay whole.
 Overlay make_notes(const Scene& scene, PictureSize size, double scale, double room) {
@@ -233,6 +266,7 @@ std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size) {
     overlays.push_back({layout.paint(scene, size, top), size.width - edge - layout.width(), top});
   }
   if (!scene.caption.empty()) overlays.push_back(make_caption(scene, size, scale));
+  if (!scene.key.empty()) overlays.push_back(make_key(scene, size, scale));
   if (!scene.notes.empty()) {
     const double bottom = (kEdge + kLine * static_cast<double>(scene.notes.size())) * scale;
     const bool beside_legend = scene.legend && overlays.front().top < bottom;

@@ -18,7 +18,7 @@ struct Overlay {
 /// Pixels per point for a scene in a picture.
 double pixels_per_point(const Scene& scene, PictureSize size);
 
-/// The legend, the caption and the notes of a scene.
+/// The legend, the caption, the key of the markers and the notes of a scene.
 std::vector<Overlay> make_overlays(const Scene& scene, PictureSize size);
 
 /// Share of the picture's height that the legend takes from the right side; 0 without one.

@@ -19,6 +19,7 @@ namespace {
 /// What the overlays were made from.
 struct OverlayKey {
   std::optional<Legend> legend;
+  std::vector<Swatch> key;
   std::string caption;
   double caption_lift = 0;
   double legend_top = 0;
@@ -260,9 +261,9 @@ void Renderer::Impl::draw_arrows(const Arrows& wanted, const Camera& camera, Pic
 }
 
 void Renderer::Impl::update_overlays(const Scene& scene, PictureSize size) {
-  const OverlayKey key{scene.legend, scene.caption,    scene.caption_lift, scene.legend_top,
-                       scene.notes,  scene.background, scene.transparent,  scene.pixels_per_point,
-                       size};
+  const OverlayKey key{scene.legend,           scene.key,   scene.caption,    scene.caption_lift,
+                       scene.legend_top,       scene.notes, scene.background, scene.transparent,
+                       scene.pixels_per_point, size};
   if (key == overlay_key) return;
   overlays.clear();
   for (const Overlay& overlay : make_overlays(scene, size)) {

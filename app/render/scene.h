@@ -103,6 +103,7 @@ struct Scene {
   /// Nothing behind the mesh; text is dark on a light plate.
   bool transparent = false;
   std::optional<Legend> legend;
+  std::vector<Swatch> key;         ///< what the colours of markers mean, at the lower left over the caption
   std::string caption;             ///< one line at the lower left, UTF-8; empty: none
   double legend_top = 0;           ///< points at the top that the legend leaves to a host
   double caption_lift = 0;         ///< points that it stands higher, over what a host lays there

@@ -146,6 +146,28 @@ TEST_F(DebuggerTest, ReasonsAreColoursAndCountsThatCanBeClicked) {
   EXPECT_FALSE(part("viewport") == all);
 }
 
+TEST_F(DebuggerTest, DotsComeWithTheirMeaningInPicturesToo) {
+  open_and_run();
+  press(ui::Key::r);
+  const auto lower_left = [](const render::Image& image) {
+    std::size_t count = 0;
+    for (int y = image.height / 2; y < image.height; ++y)
+      for (int x = 14; x < 40; ++x)
+        if (image.at(x, y)[2] > 200 && image.at(x, y)[0] < 100) ++count;
+    return count;
+  };
+  EXPECT_GT(lower_left(part("viewport")), 20U) << "the blue of the boundary";
+  keep("reasons_key");
+  editor.ask(ui::SavePicture{folder / "dots.png"});
+  EXPECT_GT(lower_left(render::read_png(folder / "dots.png")), 20U);
+  editor.interface().state().comparison.mode = ui::CompareMode::split;
+  settle();
+  EXPECT_GT(lower_left(part("viewport")), 20U) << "in the left part, too, where the other picture is";
+  editor.interface().state().comparison.mode = ui::CompareMode::off;
+  press(ui::Key::r);
+  EXPECT_EQ(lower_left(part("viewport")), 0U);
+}
+
 TEST_F(DebuggerTest, ABreakpointIsTypedShownAndObeyed) {
   open(folder.make_square());
   press(ui::Key::b);
