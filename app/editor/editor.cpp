@@ -148,8 +148,11 @@ render::PictureSize Editor::pane() const {
 // What is written into a picture stands clear of what the interface lays over it.
 void Editor::clear_overlays(render::Scene& scene) const {
   if (saving_) return;
-  if (shows_names() || ui::tells_selection(interface_.state(), session_)) scene.caption_lift = ui::kNameStrip;
-  scene.legend_top = bar_height() / scale_;
+  const bool names = shows_names();
+  const bool selection = ui::tells_selection(interface_.state(), session_);
+  if (names || selection) scene.caption_lift = ui::kNameStrip;
+  if (names && selection) scene.caption_lift += ui::kSelectionStrip;
+  scene.legend_top = top_covered() / scale_;
 }
 
 void Editor::draw(KeptPicture& picture, const Shown& shown, const view::View& view) {

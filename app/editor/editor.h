@@ -102,6 +102,7 @@ class Editor {
   void follow_panes();
   [[nodiscard]] bool shows_names() const;
   [[nodiscard]] float bar_height() const;
+  [[nodiscard]] float top_covered() const;
   void clear_overlays(render::Scene& scene) const;
   [[nodiscard]] render::Camera framed(const render::Camera& camera);
   [[nodiscard]] view::View present_view() const;

@@ -78,6 +78,17 @@ float Editor::bar_height() const {
   return ui::compare_bar_height(interface_.state(), static_cast<float>(viewport_.width), scale_);
 }
 
+// The same with a notice that reaches as far as a legend: its title stands under it. The camera stays for
+// one.
+float Editor::top_covered() const {
+  const auto& rects = interface_.state().rects;
+  const auto notice = rects.find("notice");
+  const auto view = rects.find("viewport");
+  if (notice == rects.end() || view == rects.end()) return bar_height();
+  const bool reaches = notice->second.high.x > view->second.high.x - ui::kLegendStrip * scale_;
+  return reaches ? std::max(bar_height(), notice->second.high.y - view->second.low.y) : bar_height();
+}
+
 // Names stand in pictures of which there are several.
 bool Editor::shows_names() const {
   return panes() > 1 || shows_before();

@@ -50,6 +50,7 @@ void draw_name(const Ui& ui, ImDrawList& draw, const std::string& whole, ImVec2 
     draw.AddRectFilled(low, {low.x + ui.px(4), low.y + size.y + 2 * pad.y}, ink, ui.px(5),
                        ImDrawFlags_RoundCornersLeft);
   draw.AddText(&font, font.FontSize, {low.x + pad.x, low.y + pad.y}, color::kText, name.c_str());
+  mark_area(ui, "name/" + whole, {low, {low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y}});
 }
 
 void draw_divider(const Ui& ui, ImDrawList& draw, const Rect& rect, float x) {

@@ -38,8 +38,10 @@ void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const Viewp
 void draw_compare_bar(const Ui& ui, const Rect& rect);
 /// What they cover at the top of a viewport of this width, in pixels.
 [[nodiscard]] float compare_bar_height(const UiState& state, float width, float scale);
-/// Points that the names of pictures, and what is said of a selection, cover at the bottom.
+/// Points that the names of pictures, or what is said of a selection, cover at the bottom; the second stands
+/// over the first.
 inline constexpr float kNameStrip = 46;
+inline constexpr float kSelectionStrip = 36;
 /// The newest error or warning as long as it stands over the viewport; null: none does.
 [[nodiscard]] const model::Message* notice(const UiState& state, const model::Session& session);
 /// Whether what is said of a selected triangle stands over the viewport.

@@ -138,23 +138,33 @@ std::string describe_selection(const model::Session& s) {
   return text;
 }
 
-void draw_selection(const Ui& ui, const Rect& rect) {
-  if (!tells_selection(ui.state, ui.session)) return;
+// Cards at the bottom of the viewport leave the names of pictures alone, and each other.
+float lowest_card(const Ui& ui, const Rect& rect, const ViewportImage& image) {
+  const CompareMode mode = ui.state.comparison.mode;
+  const bool pair = image.before != nullptr && mode != CompareMode::off && mode != CompareMode::change;
+  return rect.high.y - ui.px(pair || !image.others.empty() ? kNameStrip : 14);
+}
+
+// Returns where it stands.
+Rect draw_selection(const Ui& ui, const Rect& rect, float bottom) {
+  if (!tells_selection(ui.state, ui.session)) return {};
   const ImVec2 pad{ui.px(12), ui.px(7)};
   const std::string text =
       fitted(*ui.fonts.text, describe_selection(ui.session), rect.width() - 2 * (ui.px(14) + pad.x));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 low{rect.low.x + ui.px(14), rect.high.y - ui.px(14) - size.y - 2 * pad.y};
+  const ImVec2 low{rect.low.x + ui.px(14), bottom - size.y - 2 * pad.y};
   const ImVec2 high{low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(low, high, IM_COL32(34, 37, 43, 235), ui.px(6));
   draw.AddRectFilled(low, {low.x + ui.px(4), high.y}, color::kAccent, ui.px(6), ImDrawFlags_RoundCornersLeft);
   draw.AddText({low.x + pad.x, low.y + pad.y}, color::kText, text.c_str());
   mark_area(ui, "selection", {low, high});
+  return {low, high};
 }
 
-// Of a moving surface: the time, and that colours of different times can be compared.
-void draw_moment(const Ui& ui, const Rect& rect) {
+// Of a moving surface: the time, and that colours of different times can be compared. Over the card of a
+// selection where both have no room beside each other.
+void draw_moment(const Ui& ui, const Rect& rect, float bottom, const Rect& selection) {
   const model::Session& s = ui.session;
   if (s.moving() == nullptr) return;
   std::string text = "t = " + number_text("%.4g", s.moment().time);
@@ -165,7 +175,8 @@ void draw_moment(const Ui& ui, const Rect& rect) {
   const float line = ui.fonts.small->FontSize;
   const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
   const ImVec2 pad{ui.px(10), ui.px(5)};
-  const ImVec2 high{rect.high.x - ui.px(14), rect.high.y - ui.px(14)};
+  const bool beside = selection.high.x + ui.px(8) < rect.high.x - ui.px(14) - width - 2 * pad.x;
+  const ImVec2 high{rect.high.x - ui.px(14), beside ? bottom : selection.low.y - ui.px(6)};
   const ImVec2 low{std::floor(high.x - width - 2 * pad.x), std::floor(high.y - line - 2 * pad.y)};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(low, high, IM_COL32(34, 37, 43, 235), ui.px(6));
@@ -204,8 +215,8 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
     if (!divides) navigate(ui, rect);
     pick(ui, rect, divides);
     draw_pictures(ui, *ImGui::GetWindowDrawList(), rect, image);
-    draw_selection(ui, rect);
-    draw_moment(ui, rect);
+    const float bottom = lowest_card(ui, rect, image);
+    draw_moment(ui, rect, bottom, draw_selection(ui, rect, bottom));
   } else if (ui.session.activity != model::Activity::loading) {
     draw_welcome(ui, rect);
   }

@@ -277,6 +277,57 @@ TEST(Partner, ASecondFileIsNotKeptWaitingForTheFirst) {
   EXPECT_EQ(comparison.file, "square.off");
 }
 
+TEST_F(EditorViews, CardsLeaveNamesOfPicturesAndEachOtherAlone) {
+  const auto& rects = editor.interface().state().rects;
+  const auto apart = [&](const std::string& a, const std::string& b) {
+    const ui::Rect& p = rects.at(a);
+    const ui::Rect& q = rects.at(b);
+    return p.high.x <= q.low.x || q.high.x <= p.low.x || p.high.y <= q.low.y || q.high.y <= p.low.y;
+  };
+  open(folder.make_square());
+  editor.interface().state().comparison.mode = ui::CompareMode::split;
+  model::execute(editor.session(), model::SelectTriangle{7});
+  settle();
+  ASSERT_TRUE(rects.contains("selection"));
+  EXPECT_TRUE(apart("selection", "name/Original"));
+  EXPECT_TRUE(apart("selection", "name/Current"));
+  keep("cards_split");
+  model::execute(editor.session(), model::OpenSphere{{.vertices = 200}});
+  model::finish(editor.session());
+  model::execute(editor.session(), model::Move{1});
+  model::finish(editor.session());
+  editor.interface().state().comparison.mode = ui::CompareMode::side_by_side;
+  model::execute(editor.session(), model::SelectTriangle{7});
+  settle();
+  for (const char* name : {"selection", "name/Original", "name/Current"})
+    EXPECT_TRUE(apart("moment", name)) << name;
+  keep("cards_moving");
+}
+
+TEST_F(EditorViews, ANoticeLeavesTheLegendsTitleAlone) {
+  open(folder.make_square());
+  const auto& rects = editor.interface().state().rects;
+  const auto legend_text = [&](float top) {
+    const ui::Rect view = rects.at("viewport");
+    const Image image = part("viewport");
+    std::size_t light = 0;
+    for (int y = static_cast<int>(std::max(0.0F, top - view.low.y)); y < image.height; ++y)
+      for (int x = image.width - static_cast<int>(ui::kLegendStrip); x < image.width; ++x)
+        if (std::ranges::min(image.at(x, y).subspan(0, 3)) > 150) ++light;
+    return light;
+  };
+  const std::size_t whole = legend_text(rects.at("compare-bar").high.y);
+  std::string text;
+  for (int k = 0; k < 20; ++k) text += "something long ";
+  model::execute(editor.session(), model::Say{{model::MessageKind::warning, text}});
+  settle();
+  ASSERT_TRUE(rects.contains("notice"));
+  ASSERT_GT(rects.at("notice").high.x, rects.at("viewport").high.x - ui::kLegendStrip);
+  EXPECT_NEAR(static_cast<double>(legend_text(rects.at("notice").high.y)), static_cast<double>(whole),
+              0.05 * static_cast<double>(whole));
+  keep("notice_and_legend");
+}
+
 TEST_F(EditorViews, ASavedPictureShowsRunsBesideEachOther) {
   open(folder.make_square());
   editor.session().smoothing.iterations = 3;
