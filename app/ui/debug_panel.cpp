@@ -41,10 +41,12 @@ void draw_reason(const Ui& ui, unsigned bit, std::size_t count, std::size_t vert
   const std::string label(limit_name(limit));
   draw.AddText({low.x + ui.px(24), y}, ink, label.c_str());
   const float share = vertices > 0 ? static_cast<float>(count) / static_cast<float>(vertices) : 0;
-  const float bar = ui.px(90);
+  // As long as the longest name leaves it.
+  const float names = ui.px(24 + 8) + text_width(*ImGui::GetFont(), limit_name(kLimitConverged));
+  const float bar = std::clamp(width - ui.px(80) - names, 0.0F, ui.px(90));
   const float x = low.x + width - ui.px(80) - bar;
   draw.AddRectFilled({x, low.y + ui.px(10)}, {x + bar, low.y + ui.px(14)}, color::kControl, ui.px(2));
-  if (count > 0)
+  if (count > 0 && bar > 0)
     draw.AddRectFilled({x, low.y + ui.px(10)}, {x + std::max(ui.px(2), bar * share), low.y + ui.px(14)},
                        color::kLimits[bit], ui.px(2));
   const std::string text = count_text(count);

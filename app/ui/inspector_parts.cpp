@@ -295,9 +295,11 @@ void draw_triangle_sections(const Ui& ui, const TriangleExplanation& e) {
     const double length = corner.move.norm();
     std::string what = length > 0 ? "moves " + number_text("%.3g", length) : "stays";
     if (corner.limits != 0) what += ": " + limit_text(corner.limits);
-    ImGui::SameLine(
-        std::max(ui.px(110), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(what.c_str()).x));
-    text_in(ui.fonts.text, color::kText, what);
+    const float right = ImGui::GetContentRegionMax().x;
+    const std::string shown = fitted(*ui.fonts.text, what, right - ui.px(82));
+    ImGui::SameLine(right - text_width(*ui.fonts.text, shown));
+    text_in(ui.fonts.text, color::kText, shown);
+    if (shown != what) tooltip(ui, what);
   }
   const TriangleMoment &was = e.before, &is = e.after;
   heading(ui, "ENERGY");

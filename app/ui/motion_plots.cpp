@@ -26,7 +26,7 @@ double largest_error(const MotionEntry& moment) {
 }
 
 struct MotionFigure {
-  std::string_view label, tip;
+  std::string_view label, brief, tip;
   Measured value;
   const char* format = "%.2f";
   std::string_view unit{};
@@ -34,26 +34,27 @@ struct MotionFigure {
 
 std::vector<MotionFigure> motion_figures() {
   return {
-      {"Smallest angle", "Smallest angle of all triangles.",
+      {"Smallest angle", "Smallest", "Smallest angle of all triangles.",
        [](const MotionEntry& m) { return m.measure.min_angle_deg; }, "%.2f", "\xC2\xB0"},
-      {"Mean smallest", "Mean over the triangles of each one's smallest angle.",
+      {"Mean smallest", "Mean", "Mean over the triangles of each one's smallest angle.",
        [](const MotionEntry& m) { return m.measure.mean_angle_deg; }, "%.2f", "\xC2\xB0"},
-      {"5 % have less", "Smallest angle that 5 % of the triangles do not reach.",
+      {"5 % have less", "5 % less", "Smallest angle that 5 % of the triangles do not reach.",
        [](const MotionEntry& m) { return m.measure.angle_p05_deg; }, "%.2f", "\xC2\xB0"},
-      {"Under 15\xC2\xB0", "Share of triangles with an angle under 15 degrees.",
+      {"Under 15\xC2\xB0", "Under 15\xC2\xB0", "Share of triangles with an angle under 15 degrees.",
        [](const MotionEntry& m) { return 100 * m.measure.below_15_deg; }, "%.2f", " %"},
-      {"Area ratio", "Largest area over the smallest.",
+      {"Area ratio", "Areas", "Largest area over the smallest.",
        [](const MotionEntry& m) { return m.measure.area_max_over_min; }, "%.1f", "\xC3\x97"},
-      {"Folded edges", "Edges over which the surface turns by more than 120 degrees.",
+      {"Folded edges", "Folds", "Edges over which the surface turns by more than 120 degrees.",
        [](const MotionEntry& m) { return static_cast<double>(m.measure.folded_edges); }, "%.0f"},
-      {"Area", "Of the whole surface, squared units of the file.",
+      {"Area", "Area", "Of the whole surface, squared units of the file.",
        [](const MotionEntry& m) { return m.measure.area; }, "%.4g", " units\xC2\xB2"},
-      {"Volume change", "Of the enclosed volume since the start of the motion.", volume_change, "%.4f", " %"},
-      {"Off the surface",
+      {"Volume change", "Volume", "Of the enclosed volume since the start of the motion.", volume_change,
+       "%.4f", " %"},
+      {"Off the surface", "Off it",
        "Largest distance between the mesh and the surface that the motion made of the start, at vertices and "
        "middles of edges; of tangent moves that of one step. Units of the file.",
        [](const MotionEntry& m) { return m.report.deviation.max; }, "%.3g", " units"},
-      {"Error",
+      {"Error", "Error",
        "Largest distance of a vertex from the exact surface, where that is known. Units of the file.",
        largest_error, "%.3g", " units"},
   };
@@ -91,8 +92,7 @@ void draw_motion_table(const Ui& ui) {
   for (const MotionFigure& figure : motion_figures()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    text_in(ui.fonts.text, color::kTextDim, figure.label);
-    tooltip(ui, figure.tip);
+    draw_figure_label(ui, figure.label, figure.brief, figure.tip);
     figure_cell(ui, figure, figure.value(branch.moments.front()), color::kTextDim);
     figure_cell(ui, figure, figure.value(s.moment()), color::kText);
     mark_area(ui, "figure/" + std::string(figure.label), {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});

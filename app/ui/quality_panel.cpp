@@ -15,6 +15,7 @@ enum class Better : std::uint8_t { larger, smaller, none };
 
 struct Figure {
   std::string_view label{};
+  std::string_view brief{};  ///< where that has no room
   std::string_view tip{};
   double before = 0, now = 0;
   const char* format = "%.2f";
@@ -37,30 +38,30 @@ std::array<Figure, 11> figures(const model::Session& session) {
                             : nothing;
   const bool is_far = known && session.surface->is_over;
   return {{
-      {"Smallest angle", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg, "%.2f",
-       "\xC2\xB0"},
-      {"Largest angle", "Largest angle of all triangles.", a.max_angle_deg, b.max_angle_deg, "%.2f",
-       "\xC2\xB0", Better::smaller},
-      {"Mean smallest", "Mean over the triangles of each one's smallest angle.", a.mean_min_angle_deg,
+      {"Smallest angle", "Smallest", "Smallest angle of all triangles.", a.min_angle_deg, b.min_angle_deg,
+       "%.2f", "\xC2\xB0"},
+      {"Largest angle", "Largest", "Largest angle of all triangles.", a.max_angle_deg, b.max_angle_deg,
+       "%.2f", "\xC2\xB0", Better::smaller},
+      {"Mean smallest", "Mean", "Mean over the triangles of each one's smallest angle.", a.mean_min_angle_deg,
        b.mean_min_angle_deg, "%.2f", "\xC2\xB0"},
-      {"Under 20\xC2\xB0", "Share of triangles with an angle under 20 degrees.", 100 * a.below_20_deg,
-       100 * b.below_20_deg, "%.2f", " %", Better::smaller},
-      {"Under 30\xC2\xB0", "Share of triangles with an angle under 30 degrees.", 100 * a.below_30_deg,
-       100 * b.below_30_deg, "%.2f", " %", Better::smaller},
-      {"Over 120\xC2\xB0", "Share of triangles with an angle over 120 degrees.", 100 * a.above_120_deg,
-       100 * b.above_120_deg, "%.2f", " %", Better::smaller},
-      {"Area spread", "Standard deviation of the areas over their mean.", a.area_std_over_mean,
+      {"Under 20\xC2\xB0", "Under 20\xC2\xB0", "Share of triangles with an angle under 20 degrees.",
+       100 * a.below_20_deg, 100 * b.below_20_deg, "%.2f", " %", Better::smaller},
+      {"Under 30\xC2\xB0", "Under 30\xC2\xB0", "Share of triangles with an angle under 30 degrees.",
+       100 * a.below_30_deg, 100 * b.below_30_deg, "%.2f", " %", Better::smaller},
+      {"Over 120\xC2\xB0", "Over 120\xC2\xB0", "Share of triangles with an angle over 120 degrees.",
+       100 * a.above_120_deg, 100 * b.above_120_deg, "%.2f", " %", Better::smaller},
+      {"Area spread", "Spread", "Standard deviation of the areas over their mean.", a.area_std_over_mean,
        b.area_std_over_mean, "%.3f", "", Better::smaller},
-      {"Inverted", "Triangles that lie upside down.", static_cast<double>(a.inverted),
+      {"Inverted", "Inverted", "Triangles that lie upside down.", static_cast<double>(a.inverted),
        static_cast<double>(b.inverted), "%.0f", "", Better::smaller},
-      {"Energy", "Sum of the energies of all treated triangles; what a run makes smaller.",
+      {"Energy", "Energy", "Sum of the energies of all treated triangles; what a run makes smaller.",
        original.energy ? original.energy->total : nothing, current.energy ? current.energy->total : nothing,
        "%.6g", "", Better::smaller},
-      {"Off the original",
+      {"Off the original", "Off it",
        "Largest distance between the surface and that of the original, of the diagonal of its bounding box. "
        "Of large meshes measured when a run has ended.",
        0, away, "%.3f", " %", is_far ? Better::smaller : Better::none},
-      {"Volume change",
+      {"Volume change", "Volume",
        "Of the enclosed volume; an open surface has none. Of large meshes measured when a run has ended.",
        known && !session.surface->deviation.has_volume ? nothing : 0, volume, "%.3f", " %", Better::none},
   }};
@@ -94,8 +95,7 @@ Rect draw_verdict(const Ui& ui, const Rect& number, Verdict verdict) {
 void draw_figure(const Ui& ui, const Figure& f) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  text_in(ui.fonts.text, color::kTextDim, fitted(*ui.fonts.text, f.label, ImGui::GetContentRegionAvail().x));
-  tooltip(ui, f.tip);
+  draw_figure_label(ui, f.label, f.brief, f.tip);
   const auto text = [&](double value) {
     return number_text(f.format, value) + (std::isfinite(value) ? std::string(f.unit) : "");
   };

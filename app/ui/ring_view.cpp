@@ -49,13 +49,14 @@ void arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 ink, float width) {
                          {neck.x + 0.5F * head * along.y, neck.y - 0.5F * head * along.x}, ink);
 }
 
-// Words in the colours of what they name, in one line.
-void key(const Ui& ui, std::initializer_list<std::pair<const char*, ImU32>> entries, ImVec2 at) {
+// Words in the colours of what they name, in one line. Returns where it ends.
+float key(const Ui& ui, std::initializer_list<std::pair<const char*, ImU32>> entries, ImVec2 at) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (const auto& [label, ink] : entries) {
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, at, ink, label);
     at.x += ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9F, 0, label).x + ui.px(14);
   }
+  return at.x;
 }
 
 Rect begin_picture(const Ui& ui, const char* name, float height) {
@@ -113,15 +114,17 @@ void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
   arrow(draw, at, sheet.at(e.before + factor * (e.after - e.before)), color::kStages[4], ui.px(2.2F));
   draw.AddCircleFilled(at, ui.px(4), color::kText);
   draw.PopClipRect();
-  if (factor > 1) {
-    const std::string text = "moves \xC3\x97 " + number_text("%.0f", factor);
-    const float width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9F, 0, text.c_str()).x;
-    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize,
-                 {std::floor(rect.high.x - ui.px(10) - width), rect.high.y - ui.px(20)}, color::kTextDim,
-                 text.c_str());
-  }
-  key(ui, {{"downhill", color::kTextDim}, {"proposed", color::kStages[2]}, {"moved", color::kStages[4]}},
-      {rect.low.x + ui.px(10), rect.high.y - ui.px(20)});
+  const float line = rect.high.y - ui.px(20);
+  const float end =
+      key(ui, {{"downhill", color::kTextDim}, {"proposed", color::kStages[2]}, {"moved", color::kStages[4]}},
+          {rect.low.x + ui.px(10), line});
+  if (factor <= 1) return;
+  const std::string text = "moves \xC3\x97 " + number_text("%.0f", factor);
+  const float left = std::floor(rect.high.x - ui.px(10) - text_width(*ui.fonts.small, text));
+  const float y = left < end ? rect.low.y + ui.px(8) : line;  // at the top where the line is full
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {left, y}, color::kTextDim, text.c_str());
+  mark_area(ui, "ring-factor", {{left, y}, {rect.high.x - ui.px(10), y + ui.fonts.small->FontSize}});
+  mark_area(ui, "ring-key", {{rect.low.x + ui.px(10), line}, {end, line + ui.fonts.small->FontSize}});
 }
 
 void draw_triangles(const Ui& ui, const TriangleExplanation& e, float height) {

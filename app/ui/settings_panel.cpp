@@ -114,7 +114,7 @@ void draw_mu(const Ui& ui) {
   ImGui::Dummy({0, 0});
   ImGui::SameLine(ui.px(104));
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ui.px(6));
-  text_in(ui.fonts.small, color::kTextFaint, model::describe_mu(settings.mu_a));
+  wrapped(ui.fonts.small, color::kTextFaint, model::describe_mu(settings.mu_a));
 }
 
 void draw_reference(const Ui& ui) {
@@ -237,7 +237,9 @@ void draw_iterations(const Ui& ui) {
   row_label(ui, "Iterations", "How many steps a run may do.");
   int iterations = static_cast<int>(settings.iterations);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(10), ui.px(6)});
-  if (ImGui::InputInt("##iterations", &iterations, 10, 100)) {
+  // In a narrow panel the number has the room of the buttons.
+  const int step = ImGui::GetContentRegionAvail().x < ui.px(130) ? 0 : 10;
+  if (ImGui::InputInt("##iterations", &iterations, step, 10 * step)) {
     settings.iterations = static_cast<unsigned>(std::clamp(iterations, 1, 1000000));
     change(ui, settings, "Iterations");
   }

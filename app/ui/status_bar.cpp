@@ -82,7 +82,9 @@ void draw_status_bar(const Ui& ui, const Rect& rect) {
                      ui.session.messages.back().kind == model::MessageKind::error;
   const float room = right - left;
   if (!text.empty() && room > ui.px(60)) {
-    const std::string shown = fitted(*ui.fonts.small, text, room);
+    // A whole sentence rather than the beginning of two.
+    const bool fits = text_width(*ui.fonts.small, text) <= room;
+    const std::string shown = fitted(*ui.fonts.small, fits ? text : text.substr(0, text.find("; ")), room);
     ImGui::SameLine(right - text_width(*ui.fonts.small, shown));
     ImGui::SetCursorPosY(0.5F * (rect.height() - ui.fonts.small->FontSize));
     text_in(ui.fonts.small, error ? color::kWorse : color::kText, shown);

@@ -37,6 +37,14 @@ std::string fitted(const ImFont& font, std::string_view text, float width) {
   return {};
 }
 
+void draw_figure_label(const Ui& ui, std::string_view label, std::string_view brief, std::string_view tip) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  const ImFont& font = *ui.fonts.text;
+  text_in(ui.fonts.text, color::kTextDim,
+          fitted(font, text_width(font, label) <= room ? label : brief, room));
+  tooltip(ui, tip);
+}
+
 void value_row(const Ui& ui, const ValueRow& row) {
   const std::string id = "##" + std::string(row.name);
   const float height = ImGui::GetTextLineHeight() + ui.px(4);

@@ -167,14 +167,16 @@ Rect draw_selection(const Ui& ui, const Rect& rect, float bottom) {
 void draw_moment(const Ui& ui, const Rect& rect, float bottom, const Rect& selection) {
   const model::Session& s = ui.session;
   if (s.moving() == nullptr) return;
-  std::string text = "t = " + number_text("%.4g", s.moment().time);
+  const std::string time = "t = " + number_text("%.4g", s.moment().time);
+  std::string text = time;
   const bool areas = s.view.coloring == model::Coloring::relative_area;
   if (s.view.range_mode == model::RangeMode::run && (areas || s.view.coloring == model::Coloring::energy))
     text += areas ? "   \xC2\xB7   areas over the mean, one range for the whole run"
                   : "   \xC2\xB7   one range for the whole run";
   const float line = ui.fonts.small->FontSize;
-  const float width = ui.fonts.small->CalcTextSizeA(line, 1e9F, 0, text.c_str()).x;
   const ImVec2 pad{ui.px(10), ui.px(5)};
+  if (text_width(*ui.fonts.small, text) > rect.width() - 2 * (ui.px(14) + pad.x)) text = time;
+  const float width = text_width(*ui.fonts.small, text);
   const bool beside = selection.high.x + ui.px(8) < rect.high.x - ui.px(14) - width - 2 * pad.x;
   const ImVec2 high{rect.high.x - ui.px(14), beside ? bottom : selection.low.y - ui.px(6)};
   const ImVec2 low{std::floor(high.x - width - 2 * pad.x), std::floor(high.y - line - 2 * pad.y)};

@@ -418,6 +418,21 @@ TEST_F(InterfaceTest, NothingOverlapsInTheSmallestWindow) {
   EXPECT_LE(rects.at("help-page").high.y, display.y) << "it scrolls";
 }
 
+TEST_F(InterfaceTest, WhatIsWrittenInANarrowPanelStaysApart) {
+  display = {800, 600};
+  open();
+  click("run");
+  model::execute(session, model::SelectVertex{130});
+  settle_and_finish();
+  interface.state().tab = SideTab::inspect;
+  settle();
+  const auto& rects = interface.state().rects;
+  ASSERT_TRUE(shows("ring-factor"));
+  const Rect& factor = rects.at("ring-factor");
+  const Rect& key = rects.at("ring-key");
+  EXPECT_TRUE(factor.low.x >= key.high.x || factor.high.y <= key.low.y);
+}
+
 TEST_F(InterfaceTest, TextThatDoesNotFitEndsInAnEllipsis) {
   settle();
   const ImFont& font = *ImGui::GetFont();
