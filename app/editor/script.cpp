@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <memory>
 
 #include "editor/editor.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "energy/triangle_energy.h"
 #include "mesh/parallel.h"
@@ -116,41 +115,6 @@ std::shared_ptr<const EnergyState> measure_energy(const SmoothingProblem& proble
   for (const double s : sums) energy->total += s;
   energy->range = finite_range(energy->values);
   return energy;
-}
-
-WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  // Cotangents order angles as well as the angles do: cot = dot / |cross|.
-  struct Extremes {
-    double largest = -std::numeric_limits<double>::infinity();
-    double smallest = std::numeric_limits<double>::infinity();
-  };
-  std::vector<Extremes> blocks(block_count(triangles.size()));
-  parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {
-    Extremes found;
-    for (std::size_t t = begin; t < end; ++t) {
-      const Vec3& a = positions[triangles[t][0]];
-      const Vec3& b = positions[triangles[t][1]];
-      const Vec3& c = positions[triangles[t][2]];
-      const Vec3 ab = b - a;
-      const Vec3 bc = c - b;
-      const Vec3 ca = a - c;
-      const double cross = ab.cross(bc).norm();
-      for (const double dot : {-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)}) {
-        // A triangle without area counts as 0 and 180 degrees, as in the report.
-        const double cot = cross > 0 ? dot / cross : std::numeric_limits<double>::infinity();
-        found.largest = std::max(found.largest, cot);
-        found.smallest = std::min(found.smallest, cross > 0 ? cot : -cot);
-      }
-    }
-    blocks[begin / kBlockSize] = found;
-  });
-  Extremes all;
-  for (const Extremes& b : blocks) {
-    all.largest = std::max(all.largest, b.largest);
-    all.smallest = std::min(all.smallest, b.smallest);
-  }
-  const auto degrees = [](double cot) { return std::atan2(1.0, cot) * 180 / std::numbers::pi; };
-  return {degrees(all.largest), degrees(all.smallest)};
 }
 
 ValueRange finite_range(std::span<const double> values) {

@@ -60,14 +60,6 @@ using MeshStatePtr = std::shared_ptr<const MeshState>;
                                                                 const SmoothingSettings& settings,
                                                                 std::span<const Vec3> positions);
 
-struct WorstAngles {
-  double min_deg = 0;
-  double max_deg = 180;
-};
-/// Smallest and largest angle of the mesh: what `measure_quality` finds, at the price of two arc tangents for
-/// the whole mesh, so that every iteration can afford it.
-[[nodiscard]] WorstAngles worst_angles(std::span<const Vec3> positions, std::span<const Triangle> triangles);
-
 /// Smallest interval that holds the finite values; {0, 1} when there are none, and never of no length.
 [[nodiscard]] ValueRange finite_range(std::span<const double> values);
 

@@ -85,7 +85,6 @@ struct ViewSettings {
   bool reversed = false;
   bool wire = true;
   bool legend = true;
-  bool show_original = false;
   bool reasons = false;  ///< dots in the colours of what limited the vertices
   Shading shading = Shading::flat;
 

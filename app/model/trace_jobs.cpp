@@ -1,9 +1,7 @@
 #include "model/trace_jobs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <utility>
 
 #include "mesh/error.h"

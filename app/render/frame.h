@@ -18,7 +18,6 @@ class Frame {
   void resolve() const;
 
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
-  [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] Image read_back() const;
 
  private:

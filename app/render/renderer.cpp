@@ -341,10 +341,6 @@ unsigned Renderer::color_texture() const {
   return impl_->frame.texture();
 }
 
-PictureSize Renderer::size() const {
-  return impl_->frame.size();
-}
-
 Image Renderer::read_back() const {
   const FramebufferGuard guard;
   return impl_->frame.read_back();

@@ -39,7 +39,6 @@ class Renderer {
   /// The texture that holds the last picture (GL_TEXTURE_2D, RGBA8, first row at the bottom as OpenGL has
   /// it): good until the next draw.
   [[nodiscard]] unsigned color_texture() const;
-  [[nodiscard]] PictureSize size() const;
   /// The last picture. That of a transparent scene has its colours multiplied by alpha (see unmultiply).
   [[nodiscard]] Image read_back() const;
 
