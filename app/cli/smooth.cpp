@@ -31,6 +31,7 @@ Json outcome_to_json(const SmoothOutcome& outcome, const std::string& broken_by)
   object["stopped_because"] = to_string(outcome.run.stopped, broken_by);
   object["attempts"] = outcome.attempts;
   object["seconds"] = outcome.seconds;
+  object["exponent"] = outcome.exponent;
   object["energy_before"] = outcome.run.before.energy;
   const bool polished = outcome.polish && outcome.polish->iterations > 0;
   object["energy_after"] = (polished ? *outcome.polish : outcome.run).after.energy;
@@ -80,18 +81,18 @@ class SmoothCommand : public Command {
   }
   [[nodiscard]] std::string notes() const override {
     return "Minimises the sum of E^p, E = (1 - mu) K + mu S, over the triangles: K = kappa + 1/kappa "
-           "measures "
-           "angles,\n"
-           "S = sqrt(det) + 1/sqrt(det) areas, both against the reference triangle. Vertices move in the "
-           "tangent\n"
-           "plane only, along ridges, and not at all at corners. No triangle is turned over and the energy "
-           "never\n"
-           "rises. Nor does one get a worse angle than the worst of the input (angles up to 120 degrees "
-           "where none "
-           "is\n"
-           "over 100), even where the energy would be less for it; the report counts that under fold. What "
-           "cannot be\n"
-           "treated (non-manifold places, degenerate triangles) is pinned and named.\n"
+           "measures\n"
+           "angles, S = sqrt(det) + 1/sqrt(det) areas, both against the reference triangle. Vertices move "
+           "in\n"
+           "the tangent plane only, along ridges, and not at all at corners. No triangle is turned over and "
+           "the\n"
+           "energy never rises. Nor does one get a worse angle than the worst of the input (angles up to "
+           "120\n"
+           "degrees where none is over 100), even where the energy would be less for it; the report counts "
+           "that\n"
+           "under fold. That limit is off where areas count more than angles (a mu above 0.5) and where the\n"
+           "reference has angles of its own (--reference). What cannot be treated (non-manifold places,\n"
+           "degenerate triangles) is pinned and named.\n"
            "\n"
            "A run stops after --iterations steps, or when the tangent gradient falls below T times its "
            "start, the\n"

@@ -154,6 +154,7 @@ SmoothOutcome SmoothRun::smooth(Console& console, const std::string& input, Tria
     const auto start = std::chrono::steady_clock::now();
     const auto begin_part = [&](const RunPart& part, std::span<const Vec3> positions) {
       if (part.begins_run()) ++outcome.attempts;
+      outcome.exponent = part.exponent;
       if (part_observer) part_observer(part, positions);
     };
     const auto show = [&](unsigned iteration, const StepRecord& record, std::span<const Vec3> positions) {

@@ -22,7 +22,8 @@ class Console;
 struct SmoothOutcome : UnguardedResult {
   QualityReport before, after;
   unsigned attempts = 0;  ///< 1, and one for each time that the run was done again from the start
-  double seconds = 0;     ///< of all attempts, set-up and polish, without reading and writing
+  double exponent = kDefaultExponent;  ///< of the energy, in the end
+  double seconds = 0;                  ///< of all attempts, set-up and polish, without reading and writing
 };
 
 /// The options of `smooth` that decide what happens to a mesh: all but its files and what is printed. The

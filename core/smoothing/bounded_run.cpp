@@ -259,7 +259,7 @@ BoundedResult run_with_some_exponent(std::span<Vec3> positions, std::span<const 
     return run_from(positions, surface, options, attempts, with_squares);
   }
   result.notes.emplace_back(
-      "the exponent is 1: with 2, the worst triangles get better at the cost of all others");
+      "the exponent is 1: with 2, the mean of the triangles' smallest angles would end below what it was");
   return result;
 }
 

@@ -266,6 +266,7 @@ TEST(SmoothCommand, TellsThatARunWasDoneAgain) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Json object = Json::parse(contents(report));
   ASSERT_EQ(object["attempts"], 2);
+  EXPECT_EQ(object["exponent"], 2);
   EXPECT_GT(object["seconds"], 0);
   EXPECT_NE(outcome.err.find("done again from the start"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("done again with"), std::string::npos) << outcome.err;
