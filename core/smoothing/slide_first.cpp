@@ -7,8 +7,10 @@
 namespace isorelax {
 namespace {
 
-/// A sliding step that lowers the energy by less than this share is the last; it is not made.
+/// So many sliding steps in a row that lower the energy by less than this share are the last: a single one
+/// may have been cut back.
 constexpr double kLeastSlidingGain = 1e-4;
+constexpr unsigned kIdleSlides = 5;
 /// Edge lengths that a vertex may be from its outline and still counts as on it: rounding.
 constexpr double kOnOutline = 1e-9;
 
@@ -22,12 +24,15 @@ class SlideFirst : public Smoother {
   [[nodiscard]] bool leads_on() const override { return slider_ != nullptr; }
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
-    if (!std::ranges::equal(positions, led_to_))
+    if (!std::ranges::equal(positions, led_to_)) {
       slider_ = is_on_outline(positions) ? make_(sliding_) : nullptr;
+      idle_ = 0;
+    }
     if (slider_) {
       slider_->step(positions, record);
       const double gain = record.before.movable_energy - record.after.movable_energy;
-      if (!(gain >= kLeastSlidingGain * record.before.movable_energy)) slider_.reset();
+      idle_ = gain < kLeastSlidingGain * record.before.movable_energy ? idle_ + 1 : 0;
+      if (record.moved == 0 || idle_ > kIdleSlides) slider_.reset();
     }
     if (!slider_) {
       if (!freed_) freed_ = make_(free_);
@@ -51,6 +56,7 @@ class SlideFirst : public Smoother {
   SmoothingProblem sliding_;
   std::unique_ptr<Smoother> slider_, freed_;
   std::vector<Vec3> led_to_;
+  unsigned idle_ = 0;  // sliding steps in a row that gained next to nothing
 };
 
 }  // namespace
