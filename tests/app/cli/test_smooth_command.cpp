@@ -270,6 +270,9 @@ TEST(SmoothCommand, TellsThatARunWasDoneAgain) {
   EXPECT_GT(object["seconds"], 0);
   EXPECT_NE(outcome.err.find("done again from the start"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("done again with"), std::string::npos) << outcome.err;
+  const Outcome broken =
+      run_program("smooth " + in + " --break 'iteration == 1' -o " + workspace.path("broken.off"));
+  EXPECT_NE(broken.err.find("ended early"), std::string::npos) << broken.err;
 }
 
 TEST(SmoothCommand, LeavesNothingBehindWhereTheResultDoesNotFit) {
