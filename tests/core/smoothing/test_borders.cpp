@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "generate/generate.h"
+#include "quality/report.h"
 #include "smoothing/bounded_run.h"
 #include "smoothing/pins.h"
 
