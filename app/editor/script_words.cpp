@@ -73,7 +73,7 @@ model::SetStage to_stage(Words words, const model::Session& session) {
 
 model::SelectLimited to_limited(Words words) {
   require(words, 1, 1);
-  for (unsigned bit = 0; bit < 8; ++bit)
+  for (unsigned bit = 0; bit < kLimitBits; ++bit)
     if (limit_name(static_cast<Limit>(1U << bit)) == words[1]) return {bit};
   if (words[1] != "none") throw UsageError("\"" + words[1] + "\" is nothing that limits a vertex");
   return {};

@@ -100,27 +100,27 @@ void add_arrows(const model::Session& session, std::span<const Vec3> x, const mo
 
 /// The bit that says most about why a vertex did not move as it wished.
 unsigned main_limit(std::uint16_t limits) {
-  constexpr std::array<unsigned, 8> kOrder{4, 5, 6, 0, 1, 3, 2, 7};
+  constexpr std::array<unsigned, kLimitBits> kOrder{4, 5, 6, 0, 1, 3, 2, 7};
   for (const unsigned bit : kOrder)
     if ((limits >> bit & 1U) != 0) return bit;
-  return 8;
+  return kLimitBits;
 }
 
 void add_reasons(const model::Session& session, std::span<const Vec3> x, render::Scene& scene) {
   const auto& limits = session.inspection.step->record->limits;
   const double diameter = limits.size() > 20000 ? 4 : 7;
-  std::array<bool, 8> occurs{};
+  std::array<bool, kLimitBits> occurs{};
   for (std::size_t v = 0; v < limits.size(); ++v) {
     unsigned bit = main_limit(limits[v]);
     if (session.selected_limit) {
       if ((limits[v] >> *session.selected_limit & 1U) == 0) continue;
       bit = *session.selected_limit;
     }
-    if (bit >= 8) continue;
+    if (bit >= kLimitBits) continue;
     scene.markers.push_back({x[v], color_of(ui::color::kLimits[bit]), diameter});
     occurs.at(bit) = true;
   }
-  for (unsigned bit = 0; bit < 8; ++bit)
+  for (unsigned bit = 0; bit < kLimitBits; ++bit)
     if (occurs.at(bit))
       scene.key.push_back(
           {color_of(ui::color::kLimits[bit]), std::string(limit_name(static_cast<Limit>(1U << bit)))});

@@ -36,7 +36,7 @@ struct StepSummary {
   unsigned iteration = 0;
   StepKind kind = StepKind::unknown;
   StepTotals before, after;
-  std::array<std::size_t, 8> limits{};  ///< vertices per bit of Limit
+  std::array<std::size_t, kLimitBits> limits{};  ///< vertices per bit of Limit
   std::size_t moved = 0;
   std::size_t vertices = 0;
   double largest_move = 0;

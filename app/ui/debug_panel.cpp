@@ -65,7 +65,7 @@ void draw_reasons(const Ui& ui) {
     wrapped(ui.fonts.text, color::kTextDim, "Make a step: then this counts what kept vertices from moving.");
   } else {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ui.px(1)});
-    for (unsigned bit = 0; bit < 8; ++bit)
+    for (unsigned bit = 0; bit < kLimitBits; ++bit)
       draw_reason(ui, bit, s.last_step->limits[bit], s.last_step->vertices);
     ImGui::PopStyleVar();
   }

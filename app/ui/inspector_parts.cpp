@@ -113,7 +113,7 @@ void share_row(const Ui& ui, const TriangleShare& share, double largest, bool bo
 
 std::string limit_text(std::uint16_t limits) {
   std::string text;
-  for (unsigned bit = 0; bit < 8; ++bit)
+  for (unsigned bit = 0; bit < kLimitBits; ++bit)
     if ((limits >> bit & 1U) != 0)
       text += (text.empty() ? "" : ", ") + std::string(limit_name(static_cast<Limit>(1U << bit)));
   return text.empty() ? "nothing" : text;

@@ -94,6 +94,8 @@ struct ValueRow {
   ImU32 color = color::kText;
 };
 void value_row(const Ui& ui, const ValueRow& row);
+/// What a figure in a table is called: the brief name where the other has no room.
+void draw_figure_label(const Ui& ui, std::string_view label, std::string_view brief, std::string_view tip);
 /// The number with four digits and with all of them, and a unit behind.
 [[nodiscard]] ValueRow number_row(std::string_view name, std::string_view label, double value,
                                   std::string_view unit, std::string_view tip);
@@ -116,8 +118,6 @@ void draw_mistake(const Ui& ui, const std::string& text, std::size_t column, con
 
 /// "1 234 567": groups of three with thin gaps.
 [[nodiscard]] std::string count_text(std::size_t count);
-/// What a figure in a table is called: the brief name where the other has no room.
-void draw_figure_label(const Ui& ui, std::string_view label, std::string_view brief, std::string_view tip);
 /// "1 triangle", "2 triangles".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view more);
 /// printf-like number text for one double.

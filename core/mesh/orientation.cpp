@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/disjoint_sets.h"
+
 namespace isorelax {
 namespace {
 
@@ -25,17 +27,17 @@ class Search {
     for (Index t = 0; t < triangles_.size(); ++t) {
       if (patch_[t] == kNone) spread_from(t);
     }
+    DisjointSets components(orientable_.size());
     for (const auto& corners : crowded_edges(triangles_, topology_)) {
-      for (const Corner c : corners) join(patch_[corners[0] / 3], patch_[c / 3]);
+      for (const Corner c : corners) components.join(patch_[corners[0] / 3], patch_[c / 3]);
     }
-    number_components();
+    number(components);
     return std::move(found_);
   }
 
  private:
   void spread_from(Index seed) {
-    const auto id = static_cast<Index>(joined_to_.size());
-    joined_to_.push_back(id);
+    const auto id = static_cast<Index>(orientable_.size());
     orientable_.push_back(true);
     members_.assign(1, seed);
     patch_[seed] = id;
@@ -64,22 +66,11 @@ class Search {
     }
   }
 
-  /// The first patch of those that a patch has been joined to.
-  Index first_of(Index patch) {
-    while (joined_to_[patch] != patch) patch = joined_to_[patch] = joined_to_[joined_to_[patch]];
-    return patch;
-  }
-
-  void join(Index a, Index b) {
-    const auto [first, second] = std::minmax({first_of(a), first_of(b)});
-    joined_to_[second] = first;
-  }
-
   /// Patches stand in the order of their first triangles, and so do components.
-  void number_components() {
-    std::vector<Index> component(joined_to_.size(), kNone);
-    for (Index patch = 0; patch < joined_to_.size(); ++patch) {
-      const Index first = first_of(patch);
+  void number(DisjointSets& components) {
+    std::vector<Index> component(orientable_.size(), kNone);
+    for (Index patch = 0; patch < orientable_.size(); ++patch) {
+      const Index first = components.find(patch);
       if (first == patch) {
         component[patch] = found_.component_count++;
         found_.orientable.push_back(true);
@@ -94,7 +85,6 @@ class Search {
   std::span<const Triangle> triangles_;
   const Topology& topology_;
   std::vector<Index> patch_;      // of every triangle
-  std::vector<Index> joined_to_;  // per patch, an earlier one or itself
   std::vector<bool> orientable_;  // per patch
   std::vector<Index> members_;
   Orientation found_;

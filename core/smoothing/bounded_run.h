@@ -65,7 +65,7 @@ struct BoundedResult {
                         ///< made of it
   double deviation_limit = 0;  ///< the one that held, over the diagonal
   /// Limits of the last step, counted by bit.
-  std::array<std::size_t, 8> limits{};
+  std::array<std::size_t, kLimitBits> limits{};
   /// The last stage, if there was one.
   std::optional<RunResult> polish;
   /// The problem's notes, and what the limit held.

@@ -120,15 +120,10 @@ Objective::Objective(const SmoothingProblem& problem)
       shape_(problem.triangle_count()),
       area_(problem.triangle_count()),
       powered_(problem.triangle_count()),
-      movable_(problem.triangle_count()),
+      movable_(movable_triangles(problem)),
       partials_(block_count(problem.triangle_count())) {
   if (problem.reference.is_uniform())
     uniform_ = ReferenceBatch::load(problem.reference, BatchIds::of_range(0, 1));
-  for (Index t = 0; t < problem.triangle_count(); ++t) {
-    const auto& corners = problem.triangles[t];
-    const auto moves = [&](Index v) { return problem.mobility[v] != Mobility::none; };
-    movable_[t] = std::any_of(corners.begin(), corners.end(), moves) ? 1 : 0;
-  }
 }
 
 void Objective::evaluate_batch(std::span<const Vec3> positions, const BatchIds& ids) {

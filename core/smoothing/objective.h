@@ -75,7 +75,7 @@ class Objective {
   std::vector<TriangleState> states_;
   std::vector<std::array<double, 3>> corner_stiffness_;  // where the references differ from corner to corner
   std::vector<double> shape_, area_, powered_;
-  std::vector<std::uint8_t> movable_;  // per triangle: a vertex of it may move
+  std::vector<std::uint8_t> movable_;
   std::vector<Vec3> at_;
   std::vector<StepTotals> partials_;
   StepTotals totals_;

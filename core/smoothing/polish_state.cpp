@@ -27,23 +27,13 @@ constexpr double kCorrection = 1.5;
 /// Turns of a move that is held back, in the order in which they are tried; radians.
 constexpr std::array kTurns = {0.7, -0.7, 1.3, -1.3};
 
-std::vector<std::uint8_t> triangles_that_can_change(const SmoothingProblem& problem) {
-  std::vector<std::uint8_t> flags = problem.treated;
-  for (Index t = 0; t < problem.triangle_count(); ++t) {
-    const Triangle& v = problem.triangles[t];
-    if (std::all_of(v.begin(), v.end(), [&](Index i) { return problem.mobility[i] == Mobility::none; }))
-      flags[t] = 0;
-  }
-  return flags;
-}
-
 }  // namespace
 
 PolishState::PolishState(const SmoothingProblem& problem)
     : problem_(problem),
       ring_(problem),
       surface_(problem),
-      can_change_(triangles_that_can_change(problem)),
+      can_change_(movable_triangles(problem)),
       ranges_(problem.triangle_count()) {}
 
 void PolishState::start(std::span<const Vec3> positions) {

@@ -330,10 +330,6 @@ void check(const ProblemOptions& options) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// SmoothingProblem::sliding, where nothing is held yet.
 std::shared_ptr<const SmoothingProblem> make_sliding(std::span<const Vec3> positions,
                                                      std::span<const Triangle> triangles,
@@ -391,6 +387,16 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
   ProblemBuilder(positions, options, problem).build();
   hold(problem, options.holds, positions);
   return problem;
+}
+
+std::vector<std::uint8_t> movable_triangles(const SmoothingProblem& problem) {
+  std::vector<std::uint8_t> flags = problem.treated;
+  for (Index t = 0; t < problem.triangle_count(); ++t) {
+    const Triangle& v = problem.triangles[t];
+    if (std::all_of(v.begin(), v.end(), [&](Index i) { return problem.mobility[i] == Mobility::none; }))
+      flags[t] = 0;
+  }
+  return flags;
 }
 
 void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const Vec3> positions) {

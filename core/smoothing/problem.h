@@ -155,6 +155,9 @@ struct SmoothingProblem {
 SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& options);
 
+/// Per triangle: whether it takes part and has a vertex that may move.
+[[nodiscard]] std::vector<std::uint8_t> movable_triangles(const SmoothingProblem& problem);
+
 /// Holds vertices of a problem that was made from these positions; says so in its notes.
 void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const Vec3> positions);
 

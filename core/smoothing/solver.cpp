@@ -20,14 +20,14 @@ constexpr double kBadEnergy = 7;
 constexpr double kWorthwhileGain = 0.01;
 constexpr double kLeastGain = 0.002;
 
-/// Where limits hold vertices back, of the distance or of the worst angles, and steps of L-BFGS gain less
-/// than this share, or none is found, vertices move one by one, as long as that gains the third share; then
-/// L-BFGS has so many steps, or fewer where they gain less than the second. Where it finds none even so, they
-/// go on one by one.
+/// Where the limit of the distance holds vertices back and steps of L-BFGS gain less than this share, once it
+/// has had so many, they move one by one. So they do at once where it finds no step, or gains no more than
+/// the second share and the worst angles may be what holds them. They go on while that gains the third share;
+/// where L-BFGS finds no step even so, to the end.
 constexpr double kHeldUpGain = 1e-4;
+constexpr unsigned kStepsForAll = 16;
 constexpr double kNoGain = 1e-6;
 constexpr double kOneByOneGain = 1e-3;
-constexpr unsigned kStepsForAll = 16;
 
 class AutomaticSmoother : public Smoother {
  public:
