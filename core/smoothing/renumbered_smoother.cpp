@@ -19,6 +19,7 @@ class RenumberedSmoother : public Smoother {
         positions_(problem.vertex_count()) {}
 
   [[nodiscard]] bool descends() const override { return smoother_->descends(); }
+  [[nodiscard]] bool leads_on() const override { return smoother_->leads_on(); }
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     parallel_for_blocks(positions.size(), copy_.threads, [&](std::size_t begin, std::size_t end) {

@@ -21,7 +21,7 @@ class SlideFirst : public Smoother {
     sliding_.exponent = problem.exponent;
   }
 
-  [[nodiscard]] bool leads_on() const override { return slider_ != nullptr; }
+  [[nodiscard]] bool leads_on() const override { return slider_ || (freed_ && freed_->leads_on()); }
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     if (!std::ranges::equal(positions, led_to_)) {

@@ -34,6 +34,9 @@ class AutomaticSmoother : public Smoother {
   AutomaticSmoother(const SmoothingProblem& problem, RecordDetail detail)
       : problem_(problem), detail_(detail) {}
 
+  // What evening out leaves, others have not seen yet.
+  [[nodiscard]] bool leads_on() const override { return evened_; }
+
   void step(std::span<const Vec3> positions, StepRecord& record) override {
     // Elsewhere than the last step led, everything starts anew.
     if (!std::ranges::equal(positions, led_to_)) begin();
@@ -60,6 +63,7 @@ class AutomaticSmoother : public Smoother {
     }
     led_to_.assign(positions.begin(), positions.end());
     apply_step(record, led_to_);
+    evened_ = phase_ == Phase::even;
     choose_next(record);
   }
 
@@ -111,6 +115,7 @@ class AutomaticSmoother : public Smoother {
   std::unique_ptr<Smoother> even_out_, newton_, lbfgs_, one_by_one_;
   std::vector<Vec3> led_to_;
   Phase phase_ = Phase::even;
+  bool evened_ = false;  // the last step did
   unsigned steps_for_all_ = 0;
   bool all_are_stuck_ = false;  // L-BFGS found no step from where others had led
   bool pays_alone_ = true;      // the last steps of one vertex after another, if any, gained something
