@@ -249,24 +249,5 @@ TEST(Solvers, ASliverThatNothingCanBeDoneAboutChangesNothingForTheOthers) {
   EXPECT_LT(far, 1e-3);
 }
 
-// An evening step that hardly moves anything leaves what others have not seen yet.
-TEST(Solvers, NoRunEndsByEveningOut) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    TriangleMesh mesh = generate(ShapeKind::random_square, {.seed = seed, .triangles = 400});
-    ProblemOptions options;
-    options.exponent = 1;
-    for (Index v = 0; v < mesh.vertex_count(); ++v)
-      if (v % 20 != 0) options.pinned.push_back(v);
-    const SmoothingProblem problem = make_problem(mesh.positions, mesh.triangles, options);
-    StepKind last = StepKind::unknown;
-    run(*make_smoother(problem, Solver::automatic), problem, mesh.positions,
-        {.iterations = 400, .tolerance = 1e-6}, [&](unsigned, const StepRecord& record, auto) {
-          last = record.kind;
-          return true;
-        });
-    EXPECT_NE(last, StepKind::even_out) << seed;
-  }
-}
-
 }  // namespace
 }  // namespace isorelax
