@@ -7,6 +7,7 @@
 
 #include "mesh/parallel.h"
 #include "surface/feature_edges.h"
+#include "surface/noisy_creases.h"
 
 namespace isorelax {
 namespace {
@@ -267,6 +268,7 @@ std::vector<FeatureEdge> find_creases(std::span<const Vec3> positions, std::span
     return turns_deg[e.corner] <= options.sharp_edge_deg && in_web[e.vertices[0]] + in_web[e.vertices[1]] > 0;
   });
   creases = CreaseGraph(std::move(creases), topology, options, turns_deg).without_short_lines();
+  take_out_noise(creases, positions, triangles, topology);
   if (!(options.ridge_angle_deg < 180)) return creases;
   const std::vector<FeatureEdge> gaps =
       GapBridge(positions, triangles, topology, options, turns_deg, creases).edges();

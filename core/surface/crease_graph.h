@@ -19,8 +19,9 @@ namespace isorelax {
 /// `sharp_edge_deg` where creases go every which way; lines of fewer edges than `least_crease_edges` that end
 /// in the middle of a face, unless they turn by more than `sharp_edge_deg` on the average; lines of fewer
 /// than twice as many that do so at both ends; and loops of fewer edges that others meet in one vertex at
-/// most. Added are edges that turn by at least half of `ridge_angle_deg` where they lead on from the end of
-/// one line to another: a crease that somebody drew may be gentle on its way.
+/// most; and what is noise (take_out_noise). Added are edges that turn by at least half of `ridge_angle_deg`
+/// where they lead on from the end of one line to another: a crease that somebody drew may be gentle on its
+/// way.
 ///
 /// `turns_deg` are those of dihedral_turns_deg, `spread_deg` and `angle_defect_deg` those of VertexClasses.
 [[nodiscard]] std::vector<FeatureEdge> find_creases(std::span<const Vec3> positions,

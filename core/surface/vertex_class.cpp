@@ -22,6 +22,9 @@ constexpr double kRimDeg = 2;
 /// with so many for each on the rim.
 constexpr double kMeshed = 1;
 constexpr double kCoarselyMeshed = 0.25;
+/// A peak without a crease is one only if it stands out by this share of its edges' mean length: one of 45
+/// degrees by half of it, noise at a short edge by what is noise beside the others.
+constexpr double kLeastHeight = 0.2;
 
 /// Angle of a matrix eigenvalue ratio: a crease with dihedral turn phi between equal areas has l2 / l1 =
 /// tan^2(phi / 2).
@@ -167,6 +170,7 @@ class Classifier {
     // Without a crease a peak is a corner; a saddle, whose angles are too many, is none.
     const double defect = r_.angle_defect_deg[v];
     double corner = (ends.empty() ? defect : std::abs(defect)) - options_.corner_defect_deg;
+    if (ends.empty() && corner >= 0 && !stands_out(v)) corner = -1;
     if (ends.size() == 2) {
       r_.turn_deg[v] =
           std::min(turn(v, {ends[0], ends[1]}), turn(v, {beyond(ends[0], v), beyond(ends[1], v)}));
@@ -180,6 +184,23 @@ class Classifier {
     double ridge = over_ridge(v);
     if (ridge < 0 && !ends.empty()) ridge = r_.sharpest_edge_deg[v] - kRimDeg;
     set(v, ends.empty() ? VertexClass::smooth : VertexClass::ridge, std::min(std::abs(ridge), -corner));
+  }
+
+  /// Whether a vertex is farther from the plane about its neighbours than noise on a short edge would bring
+  /// it.
+  [[nodiscard]] bool stands_out(Index v) const {
+    Vec3 normal = Vec3::Zero(), sum = Vec3::Zero();
+    double lengths = 0, count = 0;
+    for (const Corner c : topology_.corners_of(v)) {
+      const Triangle& t = triangles_[c / 3];
+      const Vec3 a = x_[t[next(c % 3)]] - x_[v];
+      const Vec3 b = x_[t[previous(c % 3)]] - x_[v];
+      normal += a.cross(b);
+      sum += a + b;
+      lengths += a.norm() + b.norm();
+      count += 2;
+    }
+    return std::abs(sum.dot(normal.stableNormalized())) >= kLeastHeight * lengths;
   }
 
   /// How far the vertex is over the ridge's thresholds.

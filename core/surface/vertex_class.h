@@ -84,11 +84,12 @@ struct VertexClasses {
 /// nothing is to be a ridge. Boundary vertices are `boundary`, or `corner` where the border turns by more
 /// than boundary_turn_deg, where a straight stretch of it ends in a turn however small (so that straight
 /// outlines are kept), where a crease runs into it, or where several borders meet. Elsewhere: a corner where
-/// the angles miss 2 pi by corner_defect_deg (or exceed it, on a crease), where one crease ends, where three
-/// or more meet, or where the line of two turns by more than turn_deg, both between the neighbours on it and
-/// between theirs: a line that only follows the zigzag of its edges has no corner; or where it comes to a
-/// flat face or leaves one (flat_patches), whose rim would slide along with it. A ridge where two creases
-/// meet; else smooth.
+/// the angles miss 2 pi by corner_defect_deg (or exceed it, on a crease; without a crease only where it
+/// stands out by a fifth of its edges' mean length, which noise at a short edge does not), where one crease
+/// ends, where three or more meet, or where the line of two turns by more than turn_deg, both between the
+/// neighbours on it and between theirs: a line that only follows the zigzag of its edges has no corner; or
+/// where it comes to a flat face or leaves one (flat_patches), whose rim would slide along with it. A ridge
+/// where two creases meet; else smooth.
 VertexClasses classify_vertices(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                                 const Topology& topology, const FeatureOptions& options,
                                 unsigned threads = 0);

@@ -60,6 +60,26 @@ TEST(CreaseGraph, ALoopOfFourEdgesIsOne) {
   EXPECT_EQ(sheet.creases(), 4U);
 }
 
+TEST(CreaseGraph, WhatNoiseMakesOfSliversIsNone) {
+  Sheet sheet(10);
+  sheet.turn({sheet.at(4, 4), sheet.at(5, 4), sheet.at(5, 5), sheet.at(4, 5), sheet.at(4, 4)}, 80);
+  for (Index i = 0; i <= 10; ++i) sheet.positions[sheet.at(i, 5)].y() = 4.1;
+  EXPECT_EQ(sheet.creases(), 0U);
+  // The same edges on what stands out for once: its surroundings face every which way.
+  for (const Index v : {sheet.at(4, 4), sheet.at(5, 4), sheet.at(5, 5), sheet.at(4, 5)})
+    sheet.positions[v].z() = 3;
+  EXPECT_EQ(sheet.creases(), 4U);
+}
+
+TEST(CreaseGraph, ALongerLoopAlongSliversWasDrawn) {
+  Sheet sheet(10);
+  sheet.turn({sheet.at(4, 4), sheet.at(5, 4), sheet.at(6, 4), sheet.at(7, 4), sheet.at(7, 5), sheet.at(6, 5),
+              sheet.at(5, 5), sheet.at(4, 5), sheet.at(4, 4)},
+             80);
+  for (Index i = 0; i <= 10; ++i) sheet.positions[sheet.at(i, 5)].y() = 4.1;
+  EXPECT_EQ(sheet.creases(), 8U);
+}
+
 TEST(CreaseGraph, AShortLoopWhoseVerticesAllMeetOthersStays) {
   Sheet sheet(12);
   sheet.turn({sheet.at(4, 4), sheet.at(5, 4), sheet.at(5, 5), sheet.at(4, 4)}, 80);
