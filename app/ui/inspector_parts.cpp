@@ -134,6 +134,8 @@ std::string why_sentence(const VertexExplanation& e) {
   std::string why;
   if (e.set_by != kNone)
     why = "triangle " + std::to_string(e.set_by) + " would have folded or become too sharp";
+  else if (has(kLimitFold))
+    why = "triangles at many vertices would have folded or become too sharp";
   if (has(kLimitSurface))
     why += std::string(why.empty() ? "" : ", and ") + "the surface would have gone too far from where it was";
   if (has(kLimitEnergy)) why += std::string(why.empty() ? "" : ", and ") + "the energy would have risen";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh/parallel.h"
 
@@ -14,6 +15,11 @@ namespace {
 constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
+/// Moves that belong together are cut back alike where more than this share of the vertices would have to be,
+/// to so much, so many times.
+constexpr double kManyFolds = 0.3;
+constexpr double kShorter = 0.25;
+constexpr unsigned kRoundsForAll = 6;
 /// Rounds in which a vertex that leads away from the surface loses that part of its move instead of half of
 /// it, and rounds after which it loses all.
 constexpr unsigned kSlidingRounds = 2;
@@ -170,7 +176,7 @@ std::vector<FoldControl::Cut> FoldControl::check(const Trial& trial, std::span<c
   return cuts;
 }
 
-void FoldControl::limit(Trial& trial, StepRecord& record) {
+std::vector<FoldControl::Cut> FoldControl::check_all(const Trial& trial) {
   parallel_for_blocks(problem_.triangle_count(), problem_.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Cut>& cuts = block_cuts_[begin / kBlockSize];
     cuts.clear();
@@ -180,7 +186,19 @@ void FoldControl::limit(Trial& trial, StepRecord& record) {
   });
   std::vector<Cut> all;
   for (const auto& cuts : block_cuts_) all.insert(all.end(), cuts.begin(), cuts.end());
-  shrink_until_free(trial, record, std::move(all));
+  return all;
+}
+
+void FoldControl::limit(Trial& trial, StepRecord& record, bool together) {
+  const double many = kManyFolds * problem_.vertex_count();
+  double alpha = 1;
+  for (unsigned round = 0;; ++round) {
+    const double most = together && round < kRoundsForAll ? many : INFINITY;
+    if (shrink_few_until_free(trial, record, check_all(trial), most)) break;
+    ++record.fold_passes;
+    alpha *= kShorter;
+    trial.cut_all(record, alpha, kLimitFold);
+  }
   shrink_until_near(trial, record);
 }
 
@@ -191,8 +209,11 @@ std::vector<Index> FoldControl::limit(Trial& trial, StepRecord& record, std::spa
   return changed;
 }
 
-std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts) {
+std::optional<std::vector<Index>> FoldControl::shrink_few_until_free(Trial& trial, StepRecord& record,
+                                                                     std::vector<Cut> cuts, double most) {
   std::vector<Index> changed;
+  std::vector<std::uint8_t> is_cut(std::isfinite(most) ? problem_.vertex_count() : 0, 0);
+  double count = 0;
   for (unsigned round = 1; !cuts.empty(); ++round) {
     ++record.fold_passes;
     begin_pass(record, kLimitFold);
@@ -203,14 +224,20 @@ std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& reco
     });
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       if (i > 0 && cuts[i - 1].vertex == cuts[i].vertex) continue;
+      if (!is_cut.empty()) count += std::exchange(is_cut[cuts[i].vertex], 1) == 0 ? 1 : 0;
       if (trial.cut(record, cuts[i].vertex, round >= kMaxRounds ? 0.0 : cuts[i].share, kLimitFold))
         note_cut(record, cuts[i].vertex, cuts[i].triangle);
     }
+    if (count > most) return std::nullopt;
     const std::vector<Index> touched = trial.take_touched();
     changed.insert(changed.end(), touched.begin(), touched.end());
     cuts = check(trial, touched);
   }
   return changed;
+}
+
+std::vector<Index> FoldControl::shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts) {
+  return *shrink_few_until_free(trial, record, std::move(cuts), INFINITY);
 }
 
 /// Cuts back the vertices of triangles that would be too far from the surface as it was, until none would.

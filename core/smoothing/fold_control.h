@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,9 @@ class FoldControl {
   /// Keeps a reference to the problem.
   explicit FoldControl(const SmoothingProblem& problem);
 
-  /// Checks all triangles of the trial.
-  void limit(Trial& trial, StepRecord& record);
+  /// Checks all triangles of the trial. Moves that only make sense `together` are cut back alike where many
+  /// of them would have to be: cut back one after another, nothing is left of any.
+  void limit(Trial& trial, StepRecord& record, bool together = false);
   /// Checks these triangles first, the only ones whose moves changed since the trial was last free of folds.
   /// Returns all triangles whose moves it changed.
   std::vector<Index> limit(Trial& trial, StepRecord& record, std::span<const Index> triangles);
@@ -44,6 +46,10 @@ class FoldControl {
   [[nodiscard]] bool faces_away(std::span<const Vec3> x, Index triangle) const;
   [[nodiscard]] bool may_have_folds(Index triangle, double cosine, bool all_are_checked) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles);
+  [[nodiscard]] std::vector<Cut> check_all(const Trial& trial);
+  /// Gives up, and returns nothing, once it has cut back more than so many vertices.
+  std::optional<std::vector<Index>> shrink_few_until_free(Trial& trial, StepRecord& record,
+                                                          std::vector<Cut> cuts, double most);
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
   std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);
 

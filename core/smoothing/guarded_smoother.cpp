@@ -64,7 +64,7 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
   record.before.gradient_norm = propose(positions, here_, record);
   if (detail_ == RecordDetail::stages) record_stages(positions, record);
   trial_.start(positions, record, leads_to_the_surface());
-  if (guard_ != StepGuard::none) fold_.limit(trial_, record);
+  if (guard_ != StepGuard::none) fold_.limit(trial_, record, go_together());
   record.after = there_.evaluate(trial_.to());
   if (guard_ == StepGuard::folds_and_energy || guard_ == StepGuard::all_or_nothing) guard_energy(record);
   there_.mark(trial_.to());

@@ -30,6 +30,9 @@ class GuardedSmoother : public Smoother {
   /// Whether a rising energy cuts back all vertices alike from the start, which keeps the direction.
   [[nodiscard]] virtual bool cuts_all_alike() const { return false; }
 
+  /// Whether the moves proposed only make sense together: what is too long for many is for all.
+  [[nodiscard]] virtual bool go_together() const { return false; }
+
   /// Whether what is proposed ends on the surface already.
   [[nodiscard]] virtual bool leads_to_the_surface() const { return false; }
 

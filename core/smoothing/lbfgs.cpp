@@ -40,6 +40,8 @@ class LbfgsSmoother : public GuardedSmoother {
   /// The first step is a Newton step, in which every vertex may be cut back alone.
   [[nodiscard]] bool cuts_all_alike() const override { return !memory_.empty(); }
 
+  [[nodiscard]] bool go_together() const override { return is_joint_; }
+
   double propose(std::span<const Vec3> positions, const Objective& here, StepRecord& record) override {
     const bool keeps_blocks = continues() && in_fixed_planes_ && steps_ % kPreconditionerSteps != 0;
     const double norm = sweep_.run(here, positions, [&](const TangentBatch& batch) {

@@ -54,7 +54,7 @@ struct StepTotals {
 struct ControlCut {
   Index vertex = 0;
   double alpha = 1;        ///< what is left of its move
-  Index triangle = kNone;  ///< that would have folded; kNone: it was the energy, or the distance
+  Index triangle = kNone;  ///< that would have folded; kNone: it was the energy, the distance, or many
 };
 /// One round of the step control, against folds (kLimitFold) or distance from the surface (kLimitSurface), or
 /// of the energy guard (kLimitEnergy).

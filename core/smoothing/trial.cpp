@@ -69,6 +69,21 @@ bool Trial::cut(StepRecord& record, Index vertex, double factor, Limit why) {
   return true;
 }
 
+void Trial::cut_all(StepRecord& record, double alpha, Limit why) {
+  begin_pass(record, why);
+  parallel_for_blocks(from_.size(), problem_.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (record.displacement[v].isZero(0)) continue;
+      record.alpha[v] = alpha;
+      record.limits[v] |= why;
+      place(record, static_cast<Index>(v));
+    }
+  });
+  for (Index v = 0; v < from_.size() && record.detail; ++v)
+    if (!record.displacement[v].isZero(0)) note_cut(record, v, kNone);
+  take_touched();
+}
+
 bool Trial::slide(StepRecord& record, Index vertex, const Vec3& outwards) {
   if (problem_.mobility[vertex] != Mobility::plane) return false;
   Vec3& move = bends_ ? tangent_[vertex] : record.displacement[vertex];

@@ -28,6 +28,9 @@ class Trial {
   /// false, for a vertex that does not move.
   bool cut(StepRecord& record, Index vertex, double factor, Limit why);
 
+  /// Cuts all vertices that move to the same alpha, whatever theirs was. None counts as touched.
+  void cut_all(StepRecord& record, double alpha, Limit why);
+
   /// Takes from a vertex' move in its tangent plane what leads outwards, and moves the trial. False for one
   /// that does not move so.
   bool slide(StepRecord& record, Index vertex, const Vec3& outwards);
