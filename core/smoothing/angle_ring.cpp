@@ -102,7 +102,9 @@ bool AngleRing::is_upright(const Vec3& at) {
     if (!turns_.applies()) continue;
     const double along = area.dot(problem_.initial_normals[triangles_[i]]);
     constexpr double kLeast = TurnLimit::kLeastCosine * TurnLimit::kLeastCosine;
-    if (!(along > 0 && along * along > kLeast * area.squaredNorm())) return false;
+    if (!(along > 0 && along * along > kLeast * area.squaredNorm()) &&
+        !turns_.lets_go(triangles_[i], sides_[i].normal, area))
+      return false;
     if (along * along < TurnLimit::kLittleTurned2 * area.squaredNorm() &&
         turns_.faces_away(triangles_[i], {at, sides_[i].a, sides_[i].b}))
       return false;

@@ -140,6 +140,7 @@ void FoldControl::check(const Trial& trial, const BatchIds& ids, bool all_are_ch
     bool turned = may_turn && !(cosines.at[i] > TurnLimit::kLeastCosine * TurnLimit::kLeastCosine);
     if (problem_.treated[t] == 0) continue;
     if (may_turn) has_turned_[t] = turned ? 1 : 0;
+    turned = turned && !lets_go(trial, t);
     if (may_turn && !turned && cosines.at[i] < TurnLimit::kLittleTurned2) turned = faces_away(trial.to(), t);
     const auto cut = [&](Index triangle, double share) {
       for (const Index v : problem_.triangles[triangle]) cuts.push_back({v, triangle, share});
@@ -161,6 +162,12 @@ bool FoldControl::may_have_folds(Index triangle, double cosine, bool all_are_che
     if (across != kNone && has_turned_[across / 3] != 0) return true;
   }
   return false;
+}
+
+bool FoldControl::lets_go(const Trial& trial, Index triangle) const {
+  const auto& [a, b, c] = problem_.triangles[triangle];
+  const auto area = [&](std::span<const Vec3> x) { return area_vector(x[a], x[b], x[c]); };
+  return turns_.lets_go(triangle, area(trial.from()), area(trial.to()));
 }
 
 bool FoldControl::faces_away(std::span<const Vec3> x, Index triangle) const {

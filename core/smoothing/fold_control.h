@@ -43,6 +43,7 @@ class FoldControl {
     double share;
   };
   void check(const Trial& trial, const BatchIds& ids, bool all_are_checked, std::vector<Cut>& cuts);
+  [[nodiscard]] bool lets_go(const Trial& trial, Index triangle) const;
   [[nodiscard]] bool faces_away(std::span<const Vec3> x, Index triangle) const;
   [[nodiscard]] bool may_have_folds(Index triangle, double cosine, bool all_are_checked) const;
   [[nodiscard]] std::vector<Cut> check(const Trial& trial, std::span<const Index> triangles);

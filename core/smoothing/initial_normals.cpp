@@ -10,6 +10,8 @@ namespace {
 constexpr double kSliver = 0.1;
 /// Normals agree whose sum is longer than this share of what it would be if all were the same.
 constexpr double kAgreement = 0.8;
+/// Cosine of the angle to its surroundings from which on a triangle stands on them.
+constexpr double kStanding = 0.5;
 /// Cosine of a turn of some 115 degrees, beyond which edges may come to count as folds.
 constexpr double kFolding = -0.42;
 
@@ -27,8 +29,8 @@ struct Faces {
 
 }  // namespace
 
-std::vector<Vec3> initial_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                  const Topology& topology, const VertexClasses& classes) {
+InitialNormals initial_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                               const Topology& topology, const VertexClasses& classes) {
   const Faces faces{positions, triangles};
   std::vector<Vec3> own, sums(positions.size(), Vec3::Zero());
   std::vector<double> weights(positions.size(), 0);
@@ -52,10 +54,9 @@ std::vector<Vec3> initial_normals(std::span<const Vec3> positions, std::span<con
     }
     return false;
   };
-  std::vector<Vec3> normals = own;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
+  InitialNormals normals{own, {}};
+  for (Index i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
-    if (!faces.is_sliver(t)) continue;
     // What lies about a ridge says nothing about either side of it.
     Vec3 sum = Vec3::Zero();
     double weight = 0;
@@ -66,7 +67,11 @@ std::vector<Vec3> initial_normals(std::span<const Vec3> positions, std::span<con
     }
     if (!(weight > 0 && sum.norm() > kAgreement * weight)) continue;
     const Vec3 theirs = sum.normalized();
-    if (theirs.dot(own[i]) > 0 && !folds_more(i, theirs)) normals[i] = theirs;
+    const double along = theirs.dot(own[i]);
+    if (faces.is_sliver(t) && along > 0 && !folds_more(i, theirs))
+      normals.own[i] = theirs;
+    else if (along < kStanding)
+      normals.around.emplace(i, theirs);
   }
   return normals;
 }

@@ -214,7 +214,11 @@ class ProblemBuilder {
   }
 
   void freeze_surface() {
-    if (!p_.plane_normal) p_.initial_normals = initial_normals(x_, p_.triangles, p_.topology, p_.classes);
+    if (!p_.plane_normal) {
+      InitialNormals normals = initial_normals(x_, p_.triangles, p_.topology, p_.classes);
+      p_.initial_normals = std::move(normals.own);
+      p_.surrounding_normals = std::move(normals.around);
+    }
     // In a plane only vertices that slide along a curved border could leave the surface.
     const bool can_leave = !p_.plane_normal || !p_.border.empty();
     if (options_.surface == SurfaceRule::tangent || !can_leave) return;
@@ -368,6 +372,7 @@ SmoothingProblem make_problem(std::span<const Vec3> positions, std::span<const T
       .anchors = {},
       .near = {},
       .initial_normals = {},
+      .surrounding_normals = {},
       .worst_angles = {},
       .numbering = Renumbering(positions, triangles),
       .mean_edge_length = 0,

@@ -131,6 +131,8 @@ struct SmoothingProblem {
   std::optional<NearSurface> near;
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
+  /// Of the surroundings of triangles that stand on them: those may lie down.
+  std::unordered_map<Index, Vec3> surrounding_normals;
   /// No step makes a triangle worse than these: the worst angles of the treated triangles at the start, or
   /// 120 degrees where none is larger than 100. No limit where areas count more than angles or the reference
   /// is not equilateral.

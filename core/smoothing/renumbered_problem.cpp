@@ -29,6 +29,7 @@ class Renumberer {
             .anchors = in_order(vertices(), p_.anchors),
             .near = moved_near(moved),
             .initial_normals = in_order(triangles(), p_.initial_normals),
+            .surrounding_normals = moved_normals(),
             .worst_angles = p_.worst_angles,
             .numbering = {},
             .mean_edge_length = p_.mean_edge_length,
@@ -60,6 +61,12 @@ class Renumberer {
     }
     std::ranges::sort(classes.creases, {}, &FeatureEdge::corner);
     return classes;
+  }
+
+  [[nodiscard]] std::unordered_map<Index, Vec3> moved_normals() const {
+    std::unordered_map<Index, Vec3> normals;
+    for (const auto& [t, normal] : p_.surrounding_normals) normals[triangle_[t]] = normal;
+    return normals;
   }
 
   [[nodiscard]] std::unordered_map<Index, std::array<Index, 2>> moved_border() const {

@@ -53,6 +53,14 @@ TurnLimit::TurnLimit(const SmoothingProblem& problem) : problem_(problem) {
   });
 }
 
+bool TurnLimit::lets_go(Index triangle, const Vec3& before, const Vec3& after) const {
+  const Vec3 is = after.stableNormalized();
+  const Vec3& initial = problem_.initial_normals[triangle];
+  if (is.dot(initial) >= before.stableNormalized().dot(initial)) return true;
+  const auto around = problem_.surrounding_normals.find(triangle);
+  return around != problem_.surrounding_normals.end() && is.dot(around->second) > kLeastCosine;
+}
+
 double TurnLimit::cosine_at_start(Index t, Index u) const {
   return std::clamp(problem_.initial_normals[t].dot(problem_.initial_normals[u]), -1.0, 1.0);
 }

@@ -28,11 +28,11 @@ struct Folds {
                               const std::array<Vec3, 3>& corners);
 
 /// How far the triangles of a curved surface may turn: none by more than 60 degrees from its normal at the
-/// start, and none back from its neighbours, with a fresh fold of over 149 degrees, or with folds at two
-/// edges, or at its only one, of which one is fresh. Triangles that count as upside down have such folds, and
-/// so have patches of one or two that count as folded over (inverted.h, folded_patches.h), whose limits are
-/// 120 and 150 degrees. What had turned back at the start may do what it likes. None that has turned by more
-/// than kLittleTurned2 allows faces away.
+/// start, or from its surroundings' if it stood on them, and none back from its neighbours, with a fresh fold
+/// of over 149 degrees, or with folds at two edges, or at its only one, of which one is fresh. Triangles that
+/// count as upside down have such folds, and so have patches of one or two that count as folded over
+/// (inverted.h, folded_patches.h), whose limits are 120 and 150 degrees. What had turned back at the start
+/// may do what it likes. None that has turned by more than kLittleTurned2 allows faces away.
 class TurnLimit {
  public:
   /// Cosine of the largest turn of a triangle.
@@ -43,6 +43,11 @@ class TurnLimit {
 
   /// Whether there is such a limit: not in a plane, where signed areas tell all.
   [[nodiscard]] bool applies() const { return !problem_.initial_normals.empty(); }
+
+  /// Whether a triangle that is beyond the largest turn is let go there, by its area vectors before and
+  /// after: it comes nearer to its initial normal, where that is not its own, or lies as the surroundings do
+  /// that it stood on.
+  [[nodiscard]] bool lets_go(Index triangle, const Vec3& before, const Vec3& after) const;
 
   /// Of the two triangles at a fresh fold at least one has a cosine to its own initial normal below this;
   /// squared, with its sign.
