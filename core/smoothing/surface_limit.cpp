@@ -25,7 +25,7 @@ constexpr double kRoundingShare = 5e-15;
 constexpr unsigned kDivisions = 8;
 constexpr double kLeastPart = 0.1;
 /// Triangles that an edge is followed over before it is divided instead.
-constexpr unsigned kMostParts = 16;
+constexpr unsigned kMostParts = 128;
 /// Share of a vertex' move that counts at a point from which on it is to blame.
 constexpr double kLeastWeight = 0.05;
 

@@ -14,12 +14,13 @@ namespace {
 
 constexpr double kDistance = 0.1;
 
-/// All may move, but none farther from the surface than kDistance.
-SmoothingProblem kept_near(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+/// All may move, but none farther from the surface than this.
+SmoothingProblem kept_near(std::span<const Vec3> x, std::span<const Triangle> triangles,
+                           double distance = kDistance) {
   ProblemOptions options;
   options.surface = SurfaceRule::tangent;
   options.boundary = BoundaryRule::free;
-  options.holds.distance = kDistance;
+  options.holds.distance = distance;
   return make_problem(x, triangles, options);
 }
 
@@ -63,6 +64,30 @@ TEST(SurfaceLimit, AVertexThatLeavesTheSurfaceIsToBlame) {
   EXPECT_TRUE(tent.blamed({0, 0, 0.5}).empty());
   EXPECT_TRUE(tent.blamed({0, 0, 0.5 + 0.9 * kDistance}).empty());
   EXPECT_EQ(tent.blamed({0, 0, 0.5 + 1.1 * kDistance}), std::vector<Index>{0});
+}
+
+// Else a long edge over small triangles was too far from what it lies on.
+TEST(SurfaceLimit, ALongEdgeOverManyTrianglesOfAFlatPartIsNear) {
+  constexpr Index kAcross = 80;
+  std::vector<Vec3> x;
+  for (Index i = 0; i <= kAcross; ++i)
+    for (Index j = 0; j <= 2; ++j) x.emplace_back(i, j, 0);
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < kAcross; ++i) {
+    for (Index j = 0; j < 2; ++j) {
+      const Index a = 3 * i + j;
+      triangles.push_back({a, a + 3, a + 4});
+      triangles.push_back({a, a + 4, a + 1});
+    }
+  }
+  const auto off = static_cast<Index>(x.size());  // one triangle that is not in the plane
+  x.insert(x.end(), {{0, 5, 0}, {1, 5, 0}, {0, 5, 1}});
+  triangles.push_back({off, off + 1, off + 2});
+  const SmoothingProblem problem = kept_near(x, triangles, 1e-4);
+  SurfaceLimit limit(problem);
+  std::vector<Vec3> moved = x;
+  moved[3 * 20 + 1] = {75.3, 1.2, 0};
+  EXPECT_TRUE(limit.too_far(moved, SurfaceLimit::Blame::movers).empty());
 }
 
 TEST(SurfaceLimit, ATipThatIsCutOffIsTooFarThoughAllOfTheNewSurfaceIsNear) {
