@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/mesh_input.h"
 #include "cli/table.h"
+#include "mesh/topology.h"
 #include "mesh/validation.h"
+#include "quality/inverted.h"
 #include "surface/deviation.h"
 
 namespace isorelax::cli {
@@ -61,12 +65,26 @@ std::string orientation_text(const ValidationReport& report) {
                            : "inconsistent, the surface has one side";
 }
 
+/// What is found beside the flaws of the connectivity.
+struct Sides {
+  bool inward = false;
+  bool flat = false;  ///< in one plane: it has no outside
+  std::vector<Index> inverted;
+};
+
+Sides sides_of(const TriangleMesh& mesh) {
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  return {faces_inward(mesh.positions, mesh.triangles),
+          plane_normal(mesh.positions, mesh.triangles, topology).has_value(),
+          inverted_triangles(mesh.positions, mesh.triangles, topology)};
+}
+
 std::string facing_text(const ValidationReport& report, bool inward) {
   if (inward) return "inward: the triangles show their backs to the outside";
   return report.closed && report.oriented ? "outward" : "not inward";
 }
 
-std::string report_text(const ValidationReport& report, const std::string& facing) {
+std::string report_text(const ValidationReport& report, const Sides& sides) {
   Table table;
   table.row("vertices", std::to_string(report.vertices));
   table.row("triangles", std::to_string(report.triangles));
@@ -78,10 +96,11 @@ std::string report_text(const ValidationReport& report, const std::string& facin
   table.row("closed", report.closed ? "yes" : "no");
   table.row("manifold", report.manifold() ? "yes" : "no");
   table.row("orientation", orientation_text(report));
-  table.row("facing", facing);
+  if (!sides.flat) table.row("facing", facing_text(report, sides.inward));
   table.row("non-manifold edges", listed<EdgeFinding>(report.non_manifold_edges, edge_text));
   table.row("non-manifold vertices", listed<Index>(report.non_manifold_vertices, id_text));
   table.row("inconsistent edges", listed<EdgeFinding>(report.inconsistent_edges, edge_text));
+  table.row("inverted triangles", listed<Index>(sides.inverted, id_text));
   table.row("degenerate triangles", listed<DegenerateFinding>(report.degenerate, degenerate_text));
   table.row("duplicate triangles", listed<DuplicateFinding>(report.duplicates, duplicate_text));
   table.row("isolated vertices", listed<Index>(report.isolated_vertices, id_text));
@@ -102,10 +121,12 @@ class InfoCommand : public Command {
            "  genus                 handles; undefined where a part is non-manifold or has one side\n"
            "  facing                outward or inward, by the sign of the enclosed volume; inward, too, "
            "where\n"
-           "                        holes of less than a quarter of the area are all that opens the mesh\n"
+           "                        holes of less than a quarter of the area are all that opens the mesh;\n"
+           "                        not of a mesh in one plane\n"
            "  non-manifold edges    three or more triangles meet\n"
            "  non-manifold vertices on such an edge, or several fans of triangles meet\n"
            "  inconsistent edges    their two triangles run along them in the same direction\n"
+           "  inverted triangles    upside down in a plane, or folded over on their surroundings\n"
            "  degenerate triangles  a vertex twice, or area <= 1e-14 of the squared longest edge\n\n"
            "Example:\n  isorelax info bunny.off --json";
   }
@@ -116,13 +137,14 @@ class InfoCommand : public Command {
   int run(Console& console) override {
     const TriangleMesh mesh = read_input(console, file_);
     const ValidationReport report = validate(mesh);
-    const bool inward = faces_inward(mesh.positions, mesh.triangles);
+    const Sides sides = sides_of(mesh);
     if (json_) {
       Json object = to_json(report);
-      object["faces_inward"] = inward;
+      object["faces_inward"] = sides.inward;
+      object["inverted_triangles"] = sides.inverted;
       console.result(json_text(object));
     } else {
-      console.result(report_text(report, facing_text(report, inward)));
+      console.result(report_text(report, sides));
     }
     return kDone;
   }
