@@ -116,7 +116,10 @@ class AdvectCommand : public Command {
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
-    if (output_.empty() == resume_.empty()) throw UsageError("advect: give --output DIR or --resume STATE");
+    if (output_.empty() == resume_.empty())
+      throw UsageError(output_.empty() ? "advect: give --output DIR or --resume STATE"
+                                       : "advect: give either --output DIR or --resume STATE, not both: a "
+                                         "state is gone on with in its own folder");
     if (!figure_.empty()) render::require_png_name(figure_);
     check_outputs({{{"--figure", figure_}}}, {input_, resume_});
     static_cast<void>(pictures());  // a mistake in the camera is told now, not after the run

@@ -155,6 +155,8 @@ class BenchmarkCommand : public Command {
   }
   int run(Console& console) override {
     if (quiet_) console.set_verbosity(Verbosity::quiet);
+    if (what_ == "speed" && !picture_.empty())
+      throw UsageError("benchmark speed: has no pictures, --picture is of paper and motion");
     if (what_ == "speed") return run_speed(console);
     if (what_ == "paper") return run_paper(console);
     if (what_ == "motion") return run_motion(console);
