@@ -27,6 +27,7 @@ class ViewCommand : public Command {
            "draws the whole editor into a PNG file without one.\n\n"
            "Examples:\n"
            "  isorelax view bunny.off\n"
+           "  isorelax view bunny.off --scale 1.5\n"
            "  isorelax view bunny.off --after-iterations 50 --screenshot editor.png --size 1600x1000";
   }
 
@@ -38,7 +39,9 @@ class ViewCommand : public Command {
                        "Draw the editor into this PNG file instead of opening a window")
             ->type_name("PNG");
     app.add_option("--size", size_, "Size of the window or of the screenshot, in pixels")->type_name("WxH");
-    app.add_option("--scale", scale_, "Screenshot: pixels per point, 2 for a high-resolution display")
+    app.add_option("--scale", scale_,
+                   "Size of texts and controls, in pixels per point (default: what the window's monitor asks "
+                   "for, 2 on many with 4K; 1 for a screenshot)")
         ->check(number_between(0.5, 4));
     app.add_option("--after-iterations", iterations_, "Screenshot: smooth this many iterations first")
         ->type_name("N")
@@ -65,6 +68,7 @@ class ViewCommand : public Command {
       options.width = size.width;
       options.height = size.height;
     }
+    options.scale = scale_;
     options.frames = frames_;
     if (!window_screenshot_.empty()) options.screenshot = window_screenshot_;
     window::run_window(options);
@@ -77,7 +81,7 @@ class ViewCommand : public Command {
     options.read_plan = read_plan;
     if (!files_.empty()) options.file = files_.front();
     if (!size_.empty()) options.size = render::parse_size(size_);
-    options.scale = static_cast<float>(scale_);
+    options.scale = scale_.value_or(1);
     options.iterations = iterations_;
     render::write_png(screenshot_, editor::take_screenshot(options));
     console.message("wrote " + screenshot_);
@@ -85,7 +89,7 @@ class ViewCommand : public Command {
 
   std::vector<std::string> files_;
   std::string screenshot_, window_screenshot_, size_;
-  double scale_ = 1;
+  std::optional<float> scale_;
   unsigned iterations_ = 0;
   std::optional<unsigned> frames_;
 };

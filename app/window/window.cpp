@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -92,7 +93,9 @@ WindowPtr create_window(const WindowOptions& options) {
 // Between GLFW and the editor: events in, cursor, clipboard and title out.
 class Host {
  public:
-  Host(GLFWwindow* window, editor::Editor& editor) : window_(window), editor_(editor) {
+  /// `scale`: pixels per point; none: what the monitor under the window asks for.
+  Host(GLFWwindow* window, editor::Editor& editor, std::optional<float> scale)
+      : window_(window), editor_(editor), scale_(scale) {
     glfwSetWindowUserPointer(window, this);
     connect();
     ImGui::SetCurrentContext(&editor.interface().context());
@@ -113,7 +116,7 @@ class Host {
     float scale = 1;
     glfwGetWindowContentScale(window_, &scale, nullptr);
     return {.size = {std::max(1, width), std::max(1, height)},
-            .scale = std::clamp(scale, 0.75F, 4.0F),
+            .scale = scale_.value_or(std::clamp(scale, 0.75F, 4.0F)),
             .time = glfwGetTime()};
   }
 
@@ -223,6 +226,7 @@ class Host {
 
   GLFWwindow* window_;
   editor::Editor& editor_;
+  std::optional<float> scale_;
   std::array<GLFWcursor*, 3> cursors_{};
   std::string title_;
   double last_input_ = 0;
@@ -260,7 +264,7 @@ void run_window(const WindowOptions& options) {
   editor::Editor editor([](const char* name) -> render::GlProc { return glfwGetProcAddress(name); },
                         editor::Motion::animated, options.read_plan);
   model::Session& session = editor.session();
-  Host host(window.get(), editor);
+  Host host(window.get(), editor, options.scale);
   session.engine.set_wake([] { glfwPostEmptyEvent(); });
 
   auto recent = load_recent_files();

@@ -12,7 +12,8 @@ struct WindowOptions {
   std::vector<std::filesystem::path> files;  ///< the first is opened, the others are offered as recent files
   int width = 1440;                          ///< points; less where the screen is smaller
   int height = 900;
-  PlanReader read_plan;  ///< for recorded runs; as the editor's
+  std::optional<float> scale;  ///< pixels per point; none: what the monitor asks for
+  PlanReader read_plan;        ///< for recorded runs; as the editor's
   /// Closes after so many frames: for tests. None: stays until the user closes it.
   std::optional<unsigned> frames;
   /// Written from the window's own framebuffer when it closes.

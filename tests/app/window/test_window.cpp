@@ -55,6 +55,20 @@ TEST(Window, ShowsTheEditorOnARealDisplayAndStaysWithinIt) {
   expect_editor(render::read_png(own));
 }
 
+TEST(Window, ItsScaleCanBeChosen) {
+  if (!has_tool("xvfb-run")) GTEST_SKIP() << "xvfb-run is not installed";
+  const test::TemporaryFolder folder;
+  const std::string mesh = folder.make_square().string();
+  const std::string own = (folder / "own.png").string();
+  const std::string drawn = (folder / "drawn.png").string();
+  const std::string program = ISORELAX_PROGRAM;
+  const std::string view = "XDG_STATE_HOME=" + folder.path().string() + " " + program + " view " + mesh +
+                           " --size 1280x720 --scale 1.5 ";
+  ASSERT_EQ(std::system(in_display(view + "--frames 10 --window-screenshot " + own).c_str()), 0);
+  ASSERT_EQ(std::system((view + "--screenshot " + drawn + " 2>/dev/null").c_str()), 0);
+  EXPECT_TRUE(render::read_png(own) == render::read_png(drawn)) << "as the same without a window";
+}
+
 TEST(Window, WhatTheDisplayShowsIsWhatTheProgramDrew) {
   if (!has_tool("xvfb-run") || !has_tool("import")) GTEST_SKIP() << "xvfb-run or import is not installed";
   const test::TemporaryFolder folder;
