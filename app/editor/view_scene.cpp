@@ -42,7 +42,8 @@ const render::Scene& ViewScene::make(const Shown& shown, const view::View& view)
   const render::Coloring coloring = view::coloring_of(view, subject.values);
   depiction_ = view::depict(view, coloring, subject);
   const bool has_legend = view.color == view::ColorBy::classes || !subject.values.empty();
-  if (view.legend && has_legend) depiction_.scene.legend = view::legend_of(view, coloring, subject.values);
+  if (view.legend && has_legend)
+    depiction_.scene.legend = view::legend_of(view, coloring, subject.values, state->quality().inverted);
   return depiction_.scene;
 }
 

@@ -50,6 +50,8 @@ struct Coloring {
 inline constexpr Color kBelowRange{92, 92, 92};
 inline constexpr Color kAboveRange{196, 196, 196};
 inline constexpr Color kNoValue{118, 128, 142};
+/// The backs of faces, as shaders/mesh.frag mixes it into their colours.
+inline constexpr Color kBackColor{143, 23, 51};
 
 /// 0 at the low end of the range, 1 at the high end, outside of [0, 1] beyond them. A range of no width puts
 /// its own value in the middle.

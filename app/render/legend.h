@@ -28,6 +28,7 @@ struct Legend {
   bool shows_below = false;
   bool shows_above = false;
   bool shows_missing = false;
+  bool shows_backs = false;  ///< of triangles that lie upside down
   /// Where colours stand for kinds: one row each instead of the bar.
   std::vector<Swatch> kinds;
 

@@ -21,6 +21,8 @@ constexpr double kLine = 22;  ///< from baseline to baseline
 /// Text smaller than this cannot be read, however small the picture.
 constexpr double kLeastTextPixels = 10.5;
 
+constexpr const char* kBacks = "upside down";
+
 struct Inks {
   Color text;
   Color dim;
@@ -83,7 +85,8 @@ class LegendLayout {
     if (legend_.shows_above) y = swatch(canvas, kAboveRange, "above", y, inks);
     y = bar(canvas, y + points(0.4 * kLine), inks);
     if (legend_.shows_below) y = swatch(canvas, kBelowRange, "below", y, inks);
-    if (legend_.shows_missing) swatch(canvas, kNoValue, "no value", y, inks);
+    if (legend_.shows_missing) y = swatch(canvas, kNoValue, "no value", y, inks);
+    if (legend_.shows_backs) swatch(canvas, kBackColor, kBacks, y, inks);
     return canvas.image();
   }
 
@@ -112,7 +115,8 @@ class LegendLayout {
       labels = std::max(labels,
                         font_.width(tick.text) + (note.empty() ? 0 : points(kNoteGap) + font_.width(note)));
     }
-    const int rows = legend_.shows_above + legend_.shows_below + legend_.shows_missing;
+    const int rows = legend_.shows_above + legend_.shows_below + legend_.shows_missing + legend_.shows_backs;
+    if (legend_.shows_backs) labels = std::max(labels, font_.width(kBacks));
     if (legend_.shows_missing) labels = std::max(labels, font_.width("no value"));
     if (legend_.shows_above || legend_.shows_below) labels = std::max(labels, font_.width("above"));
     const double with_labels = points(kBarWidth + 2 * kTickLength) + labels;

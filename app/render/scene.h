@@ -63,7 +63,7 @@ struct SceneMesh {
   Shading shading = Shading::flat;
   bool faces_shown =
       true;  ///< else edges alone are seen, with nothing between them; faces still hide what is behind
-  bool backs_marked = true;   ///< the backs of faces are wine-red
+  bool backs_marked = true;   ///< the backs of faces are wine-red, as kBackColor
   bool faces_inward = false;  ///< the sides whose corners run clockwise are the fronts
   /// Of a mesh in a plane, which has no inside: its normal, with the sign of most triangles. Their fronts are
   /// on whichever side is seen.

@@ -78,7 +78,8 @@ render::Coloring coloring_of(const View& view, std::span<const double> values) {
   return coloring;
 }
 
-render::Legend legend_of(const View& view, const render::Coloring& coloring, std::span<const double> values) {
+render::Legend legend_of(const View& view, const render::Coloring& coloring, std::span<const double> values,
+                         std::size_t inverted) {
   if (view.color == ColorBy::classes) {
     render::Legend legend;
     legend.title = "Features";
@@ -90,6 +91,8 @@ render::Legend legend_of(const View& view, const render::Coloring& coloring, std
   }
   render::Legend legend = render::make_legend(quantity_of(view.color), coloring, values);
   if (view.difference) say_difference(legend, view.color);
+  // Between triangles that were left out, backs are not marked.
+  legend.shows_backs = inverted > 0 && !view.only_worse_than;
   return legend;
 }
 

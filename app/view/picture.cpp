@@ -24,6 +24,7 @@ struct Prepared {
   bool faces_inward = false;
   std::optional<Vec3> plane_normal;
   std::optional<QualityReport> report;
+  std::size_t inverted = 0;
 };
 
 bool has_values(const View& view) {
@@ -77,6 +78,7 @@ std::vector<Prepared> prepare(const View& view, const Exhibits& exhibits) {
     made.plane_normal = plane_normal(mesh->positions, mesh->triangles, topology);
     if (view.boundary) made.boundary = render::mark_boundary_edges(topology);
     if (view.numbers) made.report = measure_quality(*mesh);
+    if (view.legend) made.inverted = inverted_triangles(mesh->positions, mesh->triangles, topology).size();
   }
   return all;
 }
@@ -87,18 +89,24 @@ std::vector<double> all_values(const std::vector<Prepared>& prepared) {
   return all;
 }
 
+std::size_t all_inverted(const std::vector<Prepared>& prepared) {
+  std::size_t count = 0;
+  for (const Prepared& one : prepared) count += one.inverted;
+  return count;
+}
+
 double points_of(const View& view) {
   return view.points > 0 ? view.points : std::min(view.size.width, view.size.height) / 720.0;
 }
 
 /// All of the picture that is no mesh.
-render::Scene legend_scene(const View& view, const render::Coloring& coloring,
-                           std::span<const double> values) {
+render::Scene legend_scene(const View& view, const render::Coloring& coloring, std::span<const double> values,
+                           std::size_t inverted) {
   render::Scene scene;
   scene.background = view.background;
   scene.transparent = view.transparent;
   scene.pixels_per_point = points_of(view);
-  if (view.legend && view.color != ColorBy::none) scene.legend = legend_of(view, coloring, values);
+  if (view.legend && view.color != ColorBy::none) scene.legend = legend_of(view, coloring, values, inverted);
   return scene;
 }
 
@@ -130,7 +138,7 @@ View resolved(const View& view, const Exhibits& exhibits, const std::vector<Prep
   if (has_values(view)) fixed.range = {RangeRule::ends, coloring.range};
   const auto* text = std::get_if<std::string>(&view.camera);
   if (text == nullptr) return fixed;
-  const render::Scene legend = legend_scene(view, coloring, values);
+  const render::Scene legend = legend_scene(view, coloring, values, all_inverted(prepared));
   const std::size_t count = arrangement == Arrangement::side_by_side ? exhibits.meshes.size() : 1;
   const Panels panels = panels_of(view, legend, count);
   render::FitOptions fitting;
@@ -199,7 +207,7 @@ Picture Studio::draw(const View& view, const Exhibits& exhibits) {
   const View& fixed = picture.view;
   const std::vector<double> values = all_values(prepared);
   const render::Coloring coloring = coloring_of(fixed, values);
-  const render::Scene legend = legend_scene(fixed, coloring, values);
+  const render::Scene legend = legend_scene(fixed, coloring, values, all_inverted(prepared));
   const std::size_t count = exhibits.meshes.size();
   const Panels panels = panels_of(fixed, legend, count);
   const auto& camera = std::get<render::Camera>(fixed.camera);

@@ -46,9 +46,10 @@ struct Depiction {
 /// How the view turns numbers into colours, for all values that its picture shows. A range that is not typed
 /// follows from the values.
 [[nodiscard]] render::Coloring coloring_of(const View& view, std::span<const double> values);
-/// The legend of a view that has colours; `values` tell which greys there are.
+/// The legend of a view that has colours; `values` tell which greys there are, `inverted` how many triangles
+/// lie upside down.
 [[nodiscard]] render::Legend legend_of(const View& view, const render::Coloring& coloring,
-                                       std::span<const double> values);
+                                       std::span<const double> values, std::size_t inverted = 0);
 
 /// The scene of one mesh, without a legend. The one place where a view becomes a scene: of the window, of
 /// pictures and of tests.
