@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "editor/embedded.h"
@@ -21,6 +22,12 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double mean_area(std::span<const Vec3> x, std::span<const Triangle> triangles) {
+  double area = 0;
+  for (const Triangle& t : triangles) area += 0.5 * area_vector(x[t[0]], x[t[1]], x[t[2]]).norm();
+  return area / static_cast<double>(std::max<std::size_t>(1, triangles.size()));
 }
 
 ui::FontFiles font_files() {
@@ -62,6 +69,7 @@ void Editor::frame(const FrameOptions& options) {
   move_camera(options.time);
   follow_motion();
   follow_panes();
+  tell_camera();
   const auto before_mesh = Clock::now();
   draw_pictures();
   drawing += seconds_since(before_mesh);
@@ -74,6 +82,20 @@ void Editor::frame(const FrameOptions& options) {
   painter_.paint(interface_, options.size);
   drawing += seconds_since(before_paint);
   times_ = {seconds_since(start) - drawing, drawing};
+}
+
+// What the interface says and draws of how the viewport looks at the mesh.
+void Editor::tell_camera() {
+  ui::Looking& looking = interface_.state().looking;
+  const render::CameraAxes axes = render::axes_of(camera_);
+  looking.up = axes.up;
+  looking.toward_eye = axes.toward_eye;
+  if (!session_.current) return;
+  if (measured_ != session_.current->geometry) {
+    measured_ = session_.current->geometry;
+    triangle_side_ = std::sqrt(mean_area(session_.current->positions(), session_.document->mesh().triangles));
+  }
+  looking.triangle_pixels = triangle_side_ * std::min(pane().width, pane().height) / camera_.extent;
 }
 
 ui::ViewportImage Editor::viewport_image() const {
@@ -139,10 +161,11 @@ render::PictureSize Editor::pane() const {
   const std::size_t count = panes();
   if (count == 1) return viewport_;
   const int width = viewport_.width - legend_strip();
-  const ui::Grid grid =
-      shows_others() ? ui::grid_of(count, static_cast<float>(width), static_cast<float>(viewport_.height))
-                     : ui::Grid{2, 1};
-  return {std::max(1, width / grid.columns), std::max(1, viewport_.height / grid.rows)};
+  const int height = panes_room().height;
+  const ui::Grid grid = shows_others()
+                            ? ui::grid_of(count, static_cast<float>(width), static_cast<float>(height))
+                            : ui::Grid{2, 1};
+  return {std::max(1, width / grid.columns), std::max(1, height / grid.rows)};
 }
 
 // What is written into a picture stands clear of what the interface lays over it.
@@ -251,7 +274,7 @@ void Editor::draw_legend() {
   if (!legend_) legend_ = std::make_unique<KeptPicture>(loader_);
   view::View view = present_view();
   view.legend = true;
-  view.size = {legend_strip(), viewport_.height};
+  view.size = {legend_strip(), panes_room().height};
   // The text is as large as in the pictures.
   view.points = scale_;
   render::Scene scene = legend_->scene.make(shown_now(), view);
@@ -269,7 +292,8 @@ void Editor::draw_legend() {
 std::array<float, 2> Editor::in_pane(float x, float y) const {
   const auto width = static_cast<float>(pane().width);
   const auto height = static_cast<float>(pane().height);
-  return {x - width * std::floor(x / width), y - height * std::floor(y / height)};
+  const float below = std::max(0.0F, y - static_cast<float>(panes_top()));
+  return {x - width * std::floor(x / width), below - height * std::floor(below / height)};
 }
 
 // What is under a pixel of a picture as it is drawn, but with all triangles: their numbers are asked for.
@@ -281,7 +305,8 @@ std::optional<render::Pick> Editor::pick_at(const Shown& shown, int x, int y) {
 }
 
 void Editor::pick(float x, float y) {
-  if (!session_.current || !current_.drawn || x >= static_cast<float>(viewport_.width - legend_strip()))
+  if (!session_.current || !current_.drawn || x >= static_cast<float>(viewport_.width - legend_strip()) ||
+      y < static_cast<float>(panes_top()))
     return;
   const auto [at_x, at_y] = in_pane(x, y);
   const Shown shown = shown_now();
@@ -371,8 +396,8 @@ void Editor::carry_out_request(const ui::Request& request) {
   }
 }
 
-bool Editor::is_restless() const {
-  return acted_ || flight_.has_value() || partner_.is_reading() || interface_.is_restless();
+bool Editor::has_settled() const {
+  return !acted_ && !flight_.has_value() && !partner_.is_reading() && interface_.has_settled();
 }
 
 }  // namespace isorelax::editor

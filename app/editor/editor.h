@@ -49,8 +49,10 @@ class Editor {
   /// What was done so far, as a script (script.h), in an editor as large as in the last frame.
   [[nodiscard]] std::string script() const;
 
+  /// Whether nothing is on its way: another frame looks the same, but for a blink, which never ends.
+  [[nodiscard]] bool has_settled() const;
   /// Whether another frame would look different without any new input.
-  [[nodiscard]] bool is_restless() const;
+  [[nodiscard]] bool is_restless() const { return !has_settled() || interface_.is_restless(); }
   [[nodiscard]] bool wants_to_quit() const { return quit_; }
   [[nodiscard]] model::Session& session() { return session_; }
   [[nodiscard]] ui::Interface& interface() { return interface_; }
@@ -99,9 +101,12 @@ class Editor {
   [[nodiscard]] render::FitOptions fit_options();
   void move_camera(double time);
   void follow_motion();
+  void tell_camera();
   void follow_panes();
   [[nodiscard]] bool shows_names() const;
   [[nodiscard]] float bar_height() const;
+  [[nodiscard]] int panes_top() const;
+  [[nodiscard]] render::PictureSize panes_room() const;
   [[nodiscard]] float top_covered() const;
   void clear_overlays(render::Scene& scene) const;
   [[nodiscard]] render::Camera framed(const render::Camera& camera);
@@ -149,6 +154,8 @@ class Editor {
   bool framed_change_ = false;                      ///< with the legend of a change when it did
   std::optional<render::Camera> framed_alone_;      ///< as it was before there were several, or a change
   model::DocumentPtr shown_document_;
+  std::shared_ptr<const model::Geometry> measured_;
+  double triangle_side_ = 0;  ///< of a square as large as its mean triangle, in length units
   render::PictureSize viewport_;
   render::PictureSize display_{1280, 720};
   float scale_ = 1;

@@ -62,7 +62,7 @@ void Editor::follow_motion() {
 render::FitOptions Editor::fit_options() {
   ViewScene scene;
   const double height = pane().height;
-  const double top = bar_height() / height;
+  const double top = (bar_height() - static_cast<float>(panes_top())) / height;
   const double bottom = shows_names() ? ui::kNameStrip * scale_ / height : 0;
   // In low panes the mesh is worth more than being clear of everything.
   constexpr double kMostCovered = 0.4;
@@ -78,15 +78,27 @@ float Editor::bar_height() const {
   return ui::compare_bar_height(interface_.state(), static_cast<float>(viewport_.width), scale_);
 }
 
-// The same with a notice that reaches as far as a legend: its title stands under it. The camera stays for
-// one.
+// Several pictures begin under them.
+int Editor::panes_top() const {
+  return panes() > 1 ? static_cast<int>(bar_height()) : 0;
+}
+
+// What all pictures of the viewport and their legend have together.
+render::PictureSize Editor::panes_room() const {
+  return {viewport_.width, std::max(1, viewport_.height - panes_top())};
+}
+
+// Pixels of the pictures that are covered at the top, by a notice as well where that reaches as far as a
+// legend: its title stands under it. The camera stays for one.
 float Editor::top_covered() const {
   const auto& rects = interface_.state().rects;
   const auto notice = rects.find("notice");
   const auto view = rects.find("viewport");
-  if (notice == rects.end() || view == rects.end()) return bar_height();
-  const bool reaches = notice->second.high.x > view->second.high.x - ui::kLegendStrip * scale_;
-  return reaches ? std::max(bar_height(), notice->second.high.y - view->second.low.y) : bar_height();
+  float covered = bar_height();
+  if (notice != rects.end() && view != rects.end() &&
+      notice->second.high.x > view->second.high.x - ui::kLegendStrip * scale_)
+    covered = std::max(covered, notice->second.high.y - view->second.low.y);
+  return covered - static_cast<float>(panes_top());
 }
 
 // Names stand in pictures of which there are several.

@@ -39,11 +39,12 @@ void Editor::save_picture(const std::filesystem::path& path) {
     draw_pictures();
     saving_ = false;
     if (shows_others() || before_.drawn) {
-      const ImVec2 size{static_cast<float>(viewport_.width), static_cast<float>(viewport_.height)};
+      const render::PictureSize room = panes_room();
+      const ImVec2 size{static_cast<float>(room.width), static_cast<float>(room.height)};
       painter_.paint(
           interface_,
           interface_.compose(session_, {.display = size, .scale = scale_, .viewport = viewport_image()}),
-          viewport_);
+          room);
       render::write_png(path, painter_.read_back());
     } else {
       const view::View view = present_view();

@@ -148,6 +148,9 @@ void Painter::paint(ui::Interface& interface, const ImDrawData& data, render::Pi
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  // Where no window takes the picture, nothing else has the driver do what is in its queue: it would keep the
+  // triangles of thousands of frames.
+  glFlush();
 }
 
 void Painter::draw(const ImDrawData& data) const {

@@ -30,7 +30,7 @@ constexpr std::array kEditorWords{
     ScriptWord{"camera ...",
                "a view as isorelax render takes it (iso, 30,20,2, ...), or the recorded numbers"},
     ScriptWord{"frame, fly", "show the whole mesh; go to what is selected"},
-    ScriptWord{"tab NAME", "quality, inspect, debug or runs"},
+    ScriptWord{"tab NAME", "quality, inspect, debug or runs; settings in a narrow editor"},
     ScriptWord{"show MODE [WITH]", "off, split, blink, side, ghost or change; with original or beside"},
     ScriptWord{"click NAME", "a control of the editor by its name, such as run or stage/Tangent"},
     ScriptWord{"key KEYS", "as the help page names them, such as Shift+Right, Enter or Tab"},
@@ -38,16 +38,9 @@ constexpr std::array kEditorWords{
     ScriptWord{"expect PREDICATE", "of the shown iteration; what does not hold is told, with exit status 1"},
 };
 
-constexpr std::array<std::string_view, 4> kTabs{"quality", "inspect", "debug", "runs"};
+constexpr std::array<std::string_view, 5> kTabs{"quality", "inspect", "debug", "runs", "settings"};
 constexpr std::array<std::string_view, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
 constexpr std::array<std::string_view, 4> kPartners{"original", "remembered", "file", "beside"};
-
-template <std::size_t N>
-std::size_t position(const std::array<std::string_view, N>& names, const std::string& word) {
-  const auto found = std::ranges::find(names, word);
-  if (found == names.end()) throw UsageError("\"" + word + "\" is not known here");
-  return static_cast<std::size_t>(found - names.begin());
-}
 
 ui::KeyChanged key_of(const std::string& text) {
   for (const ui::Shortcut& shortcut : ui::shortcuts())
@@ -116,16 +109,18 @@ class Player {
     do {
       model::finish(editor_.session());
       frames(1);
-    } while (--left > 0 && (editor_.is_restless() || editor_.session().engine.busy()));
+    } while (--left > 0 && (!editor_.has_settled() || editor_.session().engine.busy()));
     frames(2);
   }
 
-  // What the editor tells its user ends a script.
+  // What the editor tells its user, and what it refuses to do, ends a script.
   void look_for_errors(Words words) {
     constexpr std::array<std::string_view, 3> kWriters{"save", "save-trace", "picture"};
     for (const model::Message& message : editor_.session().messages) {
       if (message.number <= last_message_) continue;
       last_message_ = message.number;
+      if (message.topic == model::Topic::refusal)
+        throw UsageError((words.empty() ? "" : words.front() + ": ") + message.text);
       if (message.kind != model::MessageKind::error) continue;
       if (!words.empty() && std::ranges::find(kWriters, words.front()) != kWriters.end())
         throw OutputError(words.front(), message.text);
@@ -216,12 +211,12 @@ class Player {
   void frame_mesh(Words /*words*/) { editor_.ask(ui::FrameView{}); }
   void fly(Words /*words*/) { editor_.ask(ui::FlyToSelection{}); }
   void tab(Words words) {
-    editor_.interface().state().tab = static_cast<ui::SideTab>(position(kTabs, words[1]));
+    editor_.interface().state().tab = static_cast<ui::SideTab>(index_of(kTabs, words[1]));
   }
   void show(Words words) {
     ui::Comparison& comparison = editor_.interface().state().comparison;
-    comparison.mode = static_cast<ui::CompareMode>(position(kModes, words[1]));
-    if (words.size() > 2) comparison.with = static_cast<ui::CompareWith>(position(kPartners, words[2]));
+    comparison.mode = static_cast<ui::CompareMode>(index_of(kModes, words[1]));
+    if (words.size() > 2) comparison.with = static_cast<ui::CompareWith>(index_of(kPartners, words[2]));
   }
 
   void click(Words words) {

@@ -25,7 +25,7 @@ constexpr std::array kModelWords{
                "is as by default"},
     ScriptWord{"run [N]", "as many iterations as set, or N"},
     ScriptWord{"step, step-back", "one iteration on; one back"},
-    ScriptWord{"seek ITERATION [RUN]", "on the timeline; runs count from 0"},
+    ScriptWord{"seek ITERATION [RUN]", "on the timeline; runs count from 1, as the editor shows them"},
     ScriptWord{"stage NAME [ROUND]", "gradient, tangent, proposed, control, moved, or off"},
     ScriptWord{"next-stage, previous-stage", "over the ends of iterations"},
     ScriptWord{"vertex ID, triangle ID", "select it, open the inspector, fly there if it is out of sight"},
@@ -38,6 +38,7 @@ constexpr std::array kModelWords{
     ScriptWord{"no-breaks", "remove all of them"},
     ScriptWord{"beside [RUN ...]", "runs shown beside the present one"},
     ScriptWord{"compare RUN RUN", "find where two runs part"},
+    ScriptWord{"remove RUN", "a run that no other one began in"},
     ScriptWord{"teach", "the three methods, side by side"},
     ScriptWord{"memory MB", "for full records of steps"},
     ScriptWord{"view KEY=VALUE ...",
@@ -57,15 +58,16 @@ model::SetStage to_stage(Words words, const model::Session& session) {
   require(words, 1, 2);
   if (words[1] == "off") return {};
   model::Stage stage{static_cast<model::StageKind>(index_of(kStageNames, words[1]))};
-  if (words.size() < 3) return {stage};
+  if (words.size() < 3 && stage.kind != model::StageKind::control) return {stage};
   if (stage.kind != model::StageKind::control) throw UsageError("stage: only control has rounds");
-  const auto round = to_number<unsigned>(words[2]);
+  const std::string number = words.size() > 2 ? words[2] : "1";
+  const auto round = to_number<unsigned>(number);
   const model::Cursor& at = session.timeline.cursor;
   const model::StepSummary* step = session.timeline.step(at.branch, at.iteration);
   const unsigned rounds = step != nullptr ? step->fold_passes + step->energy_passes : round;
   if (round == 0 || round > rounds)
     throw UsageError(
-        "stage: there is no round " + words[2] +
+        "stage: there is no round " + number +
         (rounds == 0 ? ": the step has none at all" : ": they count from 1 to " + std::to_string(rounds)));
   stage.pass = round - 1;
   return {stage};
@@ -129,8 +131,13 @@ std::string settings_line(const model::SmoothingSettings& settings) {
   return line;
 }
 
-std::string list_line(std::string line, const std::vector<unsigned>& numbers) {
-  for (const unsigned n : numbers) line += " " + std::to_string(n);
+/// Runs count from 1, as the editor shows them.
+std::string run_word(unsigned run) {
+  return std::to_string(run + 1);
+}
+
+std::string runs_line(std::string line, const std::vector<unsigned>& runs) {
+  for (const unsigned run : runs) line += " " + run_word(run);
   return line;
 }
 
@@ -152,7 +159,7 @@ struct ToLine {
   std::string operator()(const model::SelectNextWorst&) const { return "next-worst"; }
   std::string operator()(const model::ClearSelection&) const { return "clear"; }
   std::string operator()(const model::Seek& c) const {
-    return "seek " + std::to_string(c.iteration) + (c.branch ? " " + std::to_string(*c.branch) : "");
+    return "seek " + std::to_string(c.iteration) + (c.branch ? " " + run_word(*c.branch) : "");
   }
   std::string operator()(const model::SetStage& c) const { return stage_line(c); }
   std::string operator()(const model::StepStage& c) const {
@@ -173,10 +180,11 @@ struct ToLine {
   std::string operator()(const model::SetStepBudget& c) const {
     return "memory " + std::to_string(c.bytes >> 20U);
   }
-  std::string operator()(const model::ShowBranches& c) const { return list_line("beside", c.branches); }
+  std::string operator()(const model::ShowBranches& c) const { return runs_line("beside", c.branches); }
   std::string operator()(const model::CompareBranches& c) const {
-    return list_line("compare", {c.first, c.second});
+    return runs_line("compare", {c.first, c.second});
   }
+  std::string operator()(const model::RemoveRun& c) const { return runs_line("remove", {c.branch}); }
   std::string operator()(const model::Teach&) const { return "teach"; }
   std::string operator()(const model::SetTask& c) const {
     return c.task == model::Task::move ? "motion" : "motion off";
@@ -233,6 +241,14 @@ unsigned to_number_of(const std::string& word, const std::string& what, std::siz
   return value;
 }
 
+unsigned to_run(const std::string& word, const model::Session& session) {
+  const std::size_t count = session.timeline.branches.size();
+  const unsigned run = to_number<unsigned>(word);
+  if (run >= 1 && run <= count) return run - 1;
+  throw UsageError("there is no run " + word + ": " +
+                   (count == 0 ? "there is none at all" : "they count from 1 to " + std::to_string(count)));
+}
+
 template <typename C>
 model::Command of_vertex(Words words, const model::Session& session) {
   require(words, 1, 1);
@@ -263,7 +279,7 @@ model::Command to_seek(Words words, const model::Session& session) {
   require(words, 1, 2);
   const auto& branches = session.timeline.branches;
   model::Seek seek;
-  if (words.size() > 2) seek.branch = to_number_of(words[2], "run", branches.size());
+  if (words.size() > 2) seek.branch = to_run(words[2], session);
   const unsigned branch = seek.branch.value_or(session.timeline.cursor.branch);
   const std::size_t last = branches.empty() ? 0 : session.shared_last(branch);
   seek.iteration = to_number_of(words[1], "iteration", last + 1);
@@ -272,8 +288,7 @@ model::Command to_seek(Words words, const model::Session& session) {
 
 std::vector<unsigned> to_runs(Words words, const model::Session& session) {
   std::vector<unsigned> runs;
-  for (const std::string& word : words.subspan(1))
-    runs.push_back(to_number_of(word, "run", session.timeline.branches.size()));
+  for (const std::string& word : words.subspan(1)) runs.push_back(to_run(word, session));
   return runs;
 }
 
@@ -320,6 +335,11 @@ const std::vector<std::pair<std::string_view, Parser>>& parsers() {
          require(w, 2, 2);
          const std::vector<unsigned> runs = to_runs(w, s);
          return model::CompareBranches{runs[0], runs[1]};
+       }},
+      {"remove",
+       [](Words w, const S& s, const path&) -> model::Command {
+         require(w, 1, 1);
+         return model::RemoveRun{to_run(w[1], s)};
        }},
       {"worst-by",
        [](Words w, const S&, const path&) -> model::Command {

@@ -13,8 +13,14 @@ std::string_view first_word(std::string_view line) {
   return line.substr(0, line.find(' '));
 }
 
-/// A number that the user typed and that is nothing's: a script would be refused for it.
-bool selects_nothing(const model::Command& command, const model::Session& session) {
+/// What has no effect on what is there, such as a number that the user typed and that is nothing's: a script
+/// would be refused for it.
+bool is_refused(const model::Command& command, const model::Session& session) {
+  if (std::holds_alternative<model::Teach>(command))
+    return session.moving() != nullptr &&
+           session.timeline.cursor.iteration > session.timeline.current()->start;
+  if (const auto* removal = std::get_if<model::RemoveRun>(&command))
+    return !why_kept(session, removal->branch).empty();
   const TriangleMesh* mesh = session.document ? &session.document->mesh() : nullptr;
   const std::size_t vertices = mesh != nullptr ? mesh->positions.size() : 0;
   if (const auto* vertex = std::get_if<model::SelectVertex>(&command)) return vertex->vertex >= vertices;
@@ -34,7 +40,7 @@ bool replaces(std::string_view line, std::string_view before) {
 }  // namespace
 
 SessionLog::Looks SessionLog::looks_of(const render::Camera& camera, const ui::UiState& state) {
-  constexpr std::array<const char*, 4> kTabs{"quality", "inspect", "debug", "runs"};
+  constexpr std::array<const char*, 5> kTabs{"quality", "inspect", "debug", "runs", "settings"};
   constexpr std::array<const char*, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
   constexpr std::array<const char*, 4> kPartners{"original", "remembered", "file", "beside"};
   Looks looks{to_line(camera), std::string("tab ") + kTabs.at(static_cast<std::size_t>(state.tab)),
@@ -64,7 +70,7 @@ void SessionLog::note_looks(const Looks& now) {
 void SessionLog::note(const model::Command& command, const model::Session& session,
                       const render::Camera& camera, const ui::UiState& state) {
   std::string line = to_line(command);
-  if (line.empty() || selects_nothing(command, session)) return;
+  if (line.empty() || is_refused(command, session)) return;
   note_looks(looks_of(camera, state));
   const bool runs = std::holds_alternative<model::Run>(command) ||
                     std::holds_alternative<model::Step>(command) ||

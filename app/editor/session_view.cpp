@@ -77,7 +77,7 @@ view::EnergyTerms energy_of(const model::Session& session) {
 
 /// The file that holds what is shown; the one that was opened when no file does.
 std::string file_of(const model::Session& session) {
-  const bool saved = session.save_path && !session.has_unsaved_changes();
+  const bool saved = session.save_path && session.is_saved_in(*session.save_path);
   return (saved ? *session.save_path : session.document->path).string();
 }
 

@@ -111,6 +111,10 @@ struct SetStepBudget {
 struct ShowBranches {
   std::vector<unsigned> branches;
 };
+/// Takes a branch from the timeline that no other one left (why_kept). Can be undone.
+struct RemoveRun {
+  unsigned branch = 0;
+};
 /// Where two branches part.
 struct CompareBranches {
   unsigned first = 0, second = 0;
@@ -141,11 +145,14 @@ using Command =
                  Redo, Cancel, SelectNextWorst, ClearSelection, CopyCommandLine, Say, SetRecent, Collect,
                  Seek, SetStage, StepStage, SelectVertex, SelectTriangle, SelectLimited, SetWorstBy,
                  TogglePin, SetBreakpoints, SetStepBudget, ShowBranches, CompareBranches, Teach, SaveTrace,
-                 OpenTrace, AddTrace, SetTask, SetMotion, OpenSphere, Move>;
+                 OpenTrace, AddTrace, SetTask, SetMotion, OpenSphere, Move, RemoveRun>;
 
 /// The only writer of a session. Returns at once: long work goes to the session's worker, and its results
 /// come with a later Collect. Throws nothing; what cannot be done becomes a message.
 void execute(Session& session, const Command& command);
+
+/// Why a run cannot be removed now, a sentence; empty: it can.
+[[nodiscard]] std::string why_kept(const Session& session, unsigned run);
 
 /// Executes Collect until the worker is idle: for tests and for pictures without a window.
 void finish(Session& session);

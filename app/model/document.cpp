@@ -49,6 +49,12 @@ DocumentPtr read_document(const std::filesystem::path& path) {
   return make_document(path, read_mesh(path));
 }
 
+std::filesystem::path whole_name(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto whole = std::filesystem::weakly_canonical(path, error);
+  return error ? path : whole;
+}
+
 bool has_mesh_extension(const std::filesystem::path& path) {
   return format_of_extension(path).has_value();
 }

@@ -41,6 +41,9 @@ using DocumentPtr = std::shared_ptr<const Document>;
 /// Reads a mesh file. Throws InputError.
 [[nodiscard]] DocumentPtr read_document(const std::filesystem::path& path);
 
+/// The name of a file that is the same wherever it is named from.
+[[nodiscard]] std::filesystem::path whole_name(const std::filesystem::path& path);
+
 /// Whether the name of a file is that of a mesh.
 [[nodiscard]] bool has_mesh_extension(const std::filesystem::path& path);
 /// "OFF, OBJ, ... or VTU": what is read and written.

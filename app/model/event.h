@@ -49,6 +49,7 @@ struct Loaded {
   DocumentPtr document;
   MeshStatePtr state;
   std::vector<std::string> notes;
+  std::string turning{};  ///< what a run does first with triangles upside down; empty: nothing
 };
 /// The energy of the original and of the current state under new settings.
 struct EnergyMeasured {
@@ -145,7 +146,7 @@ struct Saved {
   std::vector<std::string> notes;
 };
 /// What a message is about: that something worked out answers the errors before it about the same.
-enum class Topic : std::uint8_t { other, reading, saving, view, comparison };
+enum class Topic : std::uint8_t { other, reading, saving, view, comparison, turning, refusal };
 /// A job could not do what it was asked; nothing else has changed.
 struct Failed {
   std::string text;

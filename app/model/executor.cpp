@@ -54,6 +54,7 @@ bool Executor::wait_for_run(std::function<void(Session&)> then) {
 void Executor::drop_what_waits() {
   s_.when_idle_.clear();
   s_.teaching_ = false;
+  if (!s_.is_running()) note_teaching();
 }
 
 // What would cut a method short, or put the next one elsewhere, waits for the user to say so.
@@ -118,13 +119,16 @@ void Executor::operator()(const Cancel& /*command*/) {
 void Executor::end_run() {
   const bool was_running = s_.is_running();
   s_.activity = Activity::idle;
-  if (was_running && s_.run_start_ && s_.run_start_->geometry != s_.current->geometry) {
+  // Those of a comparison of methods are taken back together.
+  if (was_running && !s_.before_teaching_ && s_.run_start_ &&
+      s_.run_start_->geometry != s_.current->geometry) {
     const unsigned done = s_.current->iteration - s_.run_start_->iteration;
     s_.undo.push({count_label(done, s_.moving() != nullptr ? "step" : "iteration"),
                   PositionsChange{s_.run_start_, s_.current, std::move(s_.rows_at_start_), s_.history,
                                   s_.cursor_at_start_, s_.timeline.cursor}});
   }
   if (was_running) drop_empty_branch();
+  if (was_running && !s_.teaching_) note_teaching();
   s_.run_start_.reset();
   s_.rows_at_start_.clear();
   measure_energy_if_changed();
@@ -196,7 +200,8 @@ void Executor::show(const MeshStatePtr& state) {
 void Executor::operator()(Loaded& event) {
   s_.document = std::move(event.document);
   s_.messages.clear();  // they were about another mesh
-  s_.original = s_.saved = event.state;
+  s_.original = event.state;
+  s_.on_disk = {{whole_name(s_.document->path), event.state->geometry}};
   s_.save_path.reset();
   for (const Coloring c : kMeasured) s_.run_range[static_cast<std::size_t>(c)] = event.state->range(c);
   s_.undo.clear();
@@ -221,6 +226,10 @@ void Executor::operator()(Loaded& event) {
   s_.activity = Activity::idle;
   if (!s_.document->sphere) remember_recent(s_.document->path);
   for (const std::string& note : s_.notes) say(MessageKind::warning, note);
+  if (!event.turning.empty()) {
+    s_.notes.push_back(event.turning);
+    say(MessageKind::warning, event.turning, Topic::turning);
+  }
   // Settings may have changed while the file was read.
   if (s_.current->energy) measure_energy_if_changed();
 }
@@ -232,14 +241,12 @@ void Executor::operator()(EnergyMeasured& event) {
     changed->energy = std::move(energy);
     return changed;
   };
-  const bool unsaved = s_.has_unsaved_changes();
   if (event.original_geometry == s_.original->geometry) s_.original = with(s_.original, event.original);
   if (event.current_geometry != s_.current->geometry) {
     measure_energy_if_changed();
     return;
   }
   s_.current = with(s_.current, event.current);
-  if (!unsaved) s_.saved = s_.current;
   s_.run_range[static_cast<std::size_t>(Coloring::energy)] =
       united(event.original->range, event.current->range);
   ++s_.series;
@@ -297,7 +304,7 @@ void Executor::operator()(RunFailed& event) {
 }
 
 void Executor::operator()(Saved& event) {
-  s_.saved = event.state;
+  s_.on_disk[whole_name(event.path)] = event.state->geometry;
   s_.kept_steps_ = s_.timeline.made_steps();
   s_.save_path = event.path;
   s_.activity = Activity::idle;

@@ -42,6 +42,7 @@ class Executor {
   void operator()(const SetStepBudget& command);
   void operator()(const ShowBranches& command);
   void operator()(const CompareBranches& command);
+  void operator()(const RemoveRun& command);
   void operator()(const Teach& command);
   void operator()(const SaveTrace& command);
   void operator()(const OpenTrace& command);
@@ -112,7 +113,15 @@ class Executor {
   void measure_energy_if_changed();
   void measure_surface();
   void show(const MeshStatePtr& state);
-  void apply(const UndoEntry& entry, bool forward);
+  void apply(UndoEntry& entry, bool forward);
+  void apply(RunsChange& change, bool forward);
+  [[nodiscard]] RunsChange::View view_of_runs() const;
+  void put_run(RunsChange::Run& run);
+  void take_run(RunsChange::Run& run);
+  void add_dependent(std::vector<RunsChange::Run>& runs) const;
+  void show_runs(const RunsChange::View& view);
+  void note_teaching();
+  [[nodiscard]] MeshStatePtr as_on_disk(const MeshStatePtr& state) const;
   bool show_beside_again();
   void remember_recent(const std::filesystem::path& path);
 

@@ -120,7 +120,8 @@ bool Executor::refuses_to_smooth() {
   if (branch == nullptr || s_.timeline.cursor.iteration == branch->start) return false;
   say(MessageKind::info,
       "Smoothing keeps to the mesh as opened, which this surface has left: go to its start, or save this "
-      "state and open it.");
+      "state and open it.",
+      Topic::refusal);
   return true;
 }
 
@@ -279,12 +280,15 @@ void Executor::operator()(RunEnded& event) {
 // One method after the other from the same iteration; then all of them side by side.
 void Executor::operator()(const Teach& /*command*/) {
   if (!s_.can_smooth() || refuses_to_smooth()) return;
+  const RunsChange::View before = view_of_runs();
   turn_to(Task::smooth);
   const Cursor from = s_.timeline.cursor;
   const SmoothingSettings settings = s_.smoothing;
   s_.then_polish_ = false;
   s_.taught_.clear();
   s_.teaching_ = true;
+  s_.before_teaching_ = before;
+  s_.runs_before_teaching_ = s_.timeline.branches.size();
   for (const Method method : {Method::laplacian, Method::angle_based, Method::near_isometry}) {
     s_.when_idle_.push_back([from](Session& s) {
       if (!s.timeline.empty()) Executor(s).seek(from.branch, from.iteration);
@@ -302,6 +306,7 @@ void Executor::operator()(const Teach& /*command*/) {
     for (const Cursor& cursor : s.taught_)
       if (cursor.branch != s.timeline.cursor.branch) beside.push_back(cursor.branch);
     execute(s, ShowBranches{beside});
+    Executor(s).note_teaching();
   });
   go_on_when_idle();
 }

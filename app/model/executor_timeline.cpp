@@ -20,6 +20,16 @@ MeshStatePtr with_geometry(const MeshStatePtr& state, std::shared_ptr<const Geom
 
 }  // namespace
 
+bool Session::has_unsaved_changes() const {
+  return current &&
+         std::ranges::none_of(on_disk, [&](const auto& file) { return file.second == current->geometry; });
+}
+
+bool Session::is_saved_in(const std::filesystem::path& path) const {
+  const auto file = on_disk.find(whole_name(path));
+  return current && file != on_disk.end() && file->second == current->geometry;
+}
+
 bool Session::would_lose_work() const {
   return has_unsaved_changes() || timeline.made_steps() != kept_steps_;
 }
@@ -136,7 +146,7 @@ void Executor::operator()(Sought& event) {
       std::ranges::equal(event.state->positions(), s_.original->positions()))
     show(s_.moving() != nullptr ? with_geometry(event.state, s_.original->geometry) : s_.original);
   else
-    show(event.state);
+    show(as_on_disk(event.state));
   s_.other_states = std::move(event.others);
   const StepSummary* step = s_.timeline.step(s_.timeline.cursor.branch, event.state->iteration);
   s_.last_step = step != nullptr ? std::optional(*step) : std::nullopt;
@@ -148,6 +158,13 @@ void Executor::operator()(Sought& event) {
                               s_.document->mesh().triangle_count() <= kMostMeasuredOnTheWay &&
                               (!s_.surface || s_.surface->geometry != s_.current->geometry);
   go_on_when_idle();
+}
+
+// What a file holds is not told from it by where it came from.
+MeshStatePtr Executor::as_on_disk(const MeshStatePtr& state) const {
+  for (const auto& [file, geometry] : s_.on_disk)
+    if (std::ranges::equal(state->positions(), geometry->positions)) return with_geometry(state, geometry);
+  return state;
 }
 
 void Executor::operator()(const SetStage& command) {
@@ -278,6 +295,7 @@ void Executor::operator()(const ShowBranches& command) {
 void Executor::forget_runs() {
   s_.seek_number_ = s_.inspect_number_ = s_.follow_number_ = ++s_.request_count_;
   s_.timeline = {};
+  s_.before_teaching_.reset();
   s_.kept_steps_ = 0;
   s_.inspection = {};
   s_.hits.clear();

@@ -73,7 +73,7 @@ void Executor::operator()(TraceOpened& event) {
     return;
   }
   if (alone) {
-    Loaded loaded{std::move(event.document), std::move(event.state), {}};
+    Loaded loaded{std::move(event.document), std::move(event.state), {}, {}};
     s_.smoothing = event.settings;
     (*this)(loaded);
     s_.smoothing.pinned = event.settings.pinned;  // of this document, not of the one before

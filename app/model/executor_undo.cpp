@@ -57,11 +57,15 @@ void Executor::operator()(const Redo& /*command*/) {
   s_.undo.redone();
 }
 
-void Executor::apply(const UndoEntry& entry, bool forward) {
+void Executor::apply(UndoEntry& entry, bool forward) {
   if (const auto* settings = std::get_if<SettingsChange>(&entry.change)) {
     s_.smoothing = forward ? settings->after : settings->before;
   } else if (const auto* motion = std::get_if<MotionChange>(&entry.change)) {
     s_.motion = forward ? motion->after : motion->before;
+  } else if (auto* runs = std::get_if<RunsChange>(&entry.change)) {
+    say(MessageKind::info, (forward ? "Redone: " : "Undone: ") + entry.label);
+    apply(*runs, forward);
+    return;
   } else {
     const auto& positions = std::get<PositionsChange>(entry.change);
     s_.current = forward ? positions.after : positions.before;

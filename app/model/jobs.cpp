@@ -181,7 +181,7 @@ void publish_loaded(const JobContext& context, DocumentPtr document, SmoothingSe
     if (start.result.moved.empty())
       loaded.notes.insert(loaded.notes.end(), start.notes.begin(), start.notes.end());
     else
-      loaded.notes.push_back(will_be_turned(start.result));
+      loaded.turning = will_be_turned(start.result);
     const Workbench::ProblemPtr problem = context.bench().problem(loaded.document, settings);
     state->energy = measure_energy(*problem, settings, state->positions());
     loaded.notes.insert(loaded.notes.end(), problem->notes.begin(), problem->notes.end());

@@ -4,6 +4,8 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,12 +47,6 @@ inline constexpr std::size_t kWorstBy = 10;
 /// "smallest angle", ...: for people.
 [[nodiscard]] std::string_view title(WorstBy by);
 
-/// What Run does.
-enum class Task : std::uint8_t {
-  smooth,  ///< iterations of a smoother
-  move,    ///< steps of a motion
-};
-
 /// What is known about the step that is looked at.
 struct Inspection {
   std::optional<StepView> step;
@@ -72,7 +68,8 @@ struct Session {
   DocumentPtr document;  ///< null before the first file is open
   MeshStatePtr original;
   MeshStatePtr current;
-  MeshStatePtr saved;  ///< the state that the file on disk holds
+  /// What files on disk hold, as far as it was read or written here, by their whole names.
+  std::map<std::filesystem::path, std::shared_ptr<const Geometry>> on_disk;
 
   /// Where the document was saved last; none until it was.
   std::optional<std::filesystem::path> save_path;
@@ -119,9 +116,9 @@ struct Session {
   Engine engine;
 
   /// Whether the current positions are in no file.
-  [[nodiscard]] bool has_unsaved_changes() const {
-    return current && saved && current->geometry != saved->geometry;
-  }
+  [[nodiscard]] bool has_unsaved_changes() const;
+  /// Whether this file holds them.
+  [[nodiscard]] bool is_saved_in(const std::filesystem::path& path) const;
   /// Whether that, or what was recorded since a mesh or a trace was saved last, would be lost.
   [[nodiscard]] bool would_lose_work() const;
   /// Which of the worst triangles the selected one is, from 1; 0 for none of them, and as soon as the mesh
@@ -161,6 +158,8 @@ struct Session {
   Cursor cursor_at_start_;
   std::vector<Cursor> taught_;  // where Teach has come to
   bool teaching_ = false;
+  std::optional<RunsChange::View> before_teaching_;  // until it is noted for Undo
+  std::size_t runs_before_teaching_ = 0;
   unsigned beside_at_ = 0;  // iteration that was asked for last, over all runs that are shown
   unsigned scan_to_ = 0;
   std::function<void(Session&)> after_scan_;  // where no breakpoint stopped it

@@ -31,6 +31,10 @@ std::size_t Timeline::made_steps() const {
   return steps;
 }
 
+std::string Timeline::numbered_name(unsigned branch) const {
+  return std::to_string(branch + 1) + "  " + branches[branch].name;
+}
+
 std::vector<IterationRow> Timeline::rows(unsigned branch) const {
   std::vector<IterationRow> rows;
   const Branch& own = branches[branch];

@@ -13,6 +13,12 @@ namespace isorelax::model {
 
 class Recording;
 
+/// What Run does.
+enum class Task : std::uint8_t {
+  smooth,  ///< iterations of a smoother
+  move,    ///< steps of a motion
+};
+
 /// A place inside an iteration: what the smoother had found so far. Its arrows stand on the mesh before the
 /// step.
 enum class StageKind : std::uint8_t {
@@ -81,6 +87,8 @@ struct Timeline {
   [[nodiscard]] unsigned holder(unsigned branch, unsigned iteration) const;
   /// What the step to an iteration did; null for iteration 0 and for one that is not there.
   [[nodiscard]] const StepSummary* step(unsigned branch, unsigned iteration) const;
+  /// "2  Laplacian": what a branch is called, with its number, which counts from 1.
+  [[nodiscard]] std::string numbered_name(unsigned branch) const;
   /// The rows from iteration 0 to the branch' tip.
   [[nodiscard]] std::vector<IterationRow> rows(unsigned branch) const;
 };

@@ -24,7 +24,8 @@ void UndoList::push(UndoEntry entry) {
   if (may_merge &&
       (merge<SettingsChange>(entries_.back(), entry) || merge<MotionChange>(entries_.back(), entry)))
     return;
-  merging_ = !std::holds_alternative<PositionsChange>(entry.change);
+  merging_ = std::holds_alternative<SettingsChange>(entry.change) ||
+             std::holds_alternative<MotionChange>(entry.change);
   entries_.push_back(std::move(entry));
   position_ = entries_.size();
   forget_oldest();

@@ -27,9 +27,28 @@ struct MotionChange {
   MotionChoices before, after;
 };
 
+/// Runs that came to the timeline together, or one that was removed from it.
+struct RunsChange {
+  struct Run {
+    unsigned at = 0;               ///< its place on the timeline
+    Branch branch{};               ///< empty while it is there
+    std::vector<unsigned> left{};  ///< those that left it where it began, by their places without it
+  };
+  /// What is shown of them.
+  struct View {
+    Cursor cursor;
+    std::vector<unsigned> beside;
+    SmoothingSettings settings;
+    Task task = Task::smooth;
+  };
+  std::vector<Run> runs;  ///< ascending
+  bool came = true;       ///< else they went
+  View before, after;
+};
+
 struct UndoEntry {
   std::string label;  ///< "20 iterations", "Reset", "mu_A": what Undo takes back
-  std::variant<SettingsChange, PositionsChange, MotionChange> change;
+  std::variant<SettingsChange, PositionsChange, MotionChange, RunsChange> change;
 };
 
 /// What can be undone and redone, in the order in which it was done. Settings and positions are entries of
@@ -52,6 +71,11 @@ class UndoList {
     return position_ > 0 ? &entries_[position_ - 1] : nullptr;
   }
   [[nodiscard]] const UndoEntry* next_redo() const {
+    return position_ < entries_.size() ? &entries_[position_] : nullptr;
+  }
+  /// The same to be changed: runs change places with their entry.
+  [[nodiscard]] UndoEntry* next_undo() { return position_ > 0 ? &entries_[position_ - 1] : nullptr; }
+  [[nodiscard]] UndoEntry* next_redo() {
     return position_ < entries_.size() ? &entries_[position_] : nullptr;
   }
   /// Moves over next_undo() or next_redo(). Precondition: there is one.

@@ -148,7 +148,10 @@ void perform_inspection(const Ui& ui, Action action) {
       break;
     }
     case Action::pin:
-      if (s.selected_vertex) ui.command(model::TogglePin{*s.selected_vertex});
+      if (s.selected_vertex)
+        ui.command(model::TogglePin{*s.selected_vertex});
+      else if (s.current)
+        ui.command(model::Say{{model::MessageKind::info, "X pins the selected vertex: click on one first."}});
       break;
     case Action::task:
       ui.command(model::SetTask{s.task == model::Task::smooth ? model::Task::move : model::Task::smooth});

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -153,27 +154,49 @@ Rect beside_legend(const Ui& ui, ImDrawList& draw, Rect rect, const ViewportImag
   return rect;
 }
 
-// The present run at the upper left, the others behind it, each with its name.
+// With its number and the iteration that it shows; the word for that only where it has room.
+std::string name_of_run(const Ui& ui, unsigned branch, float width) {
+  const model::Session& s = ui.session;
+  const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
+  const std::string name = s.timeline.numbered_name(branch) + ", ";
+  const std::string whole = name + "iteration " + std::to_string(at);
+  return text_width(*ui.fonts.text, whole) <= width - ui.px(44) ? whole : name + std::to_string(at);
+}
+
+/// A run and its picture.
+struct Pane {
+  unsigned branch = 0;
+  ImTextureID texture = nullptr;
+};
+
+// In the order of the list of runs, whichever of them is the present one.
+std::vector<Pane> panes_of(const model::Session& s, const ViewportImage& image) {
+  std::vector<Pane> panes{{s.timeline.cursor.branch, image.texture}};
+  for (std::size_t k = 0; k < std::min(image.others.size(), s.shown_branches.size()); ++k)
+    panes.push_back({s.shown_branches[k], image.others[k]});
+  std::ranges::sort(panes, {}, &Pane::branch);
+  return panes;
+}
+
+// The runs beside each other, each with its name, the present one with a brighter edge.
 void draw_grid(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image) {
   const model::Session& s = ui.session;
+  const std::vector<Pane> panes = panes_of(s, image);
   const Grid grid = grid_of(1 + image.others.size(), rect.width(), rect.height());
   const float width = std::floor(rect.width() / static_cast<float>(grid.columns));
   const float height = std::floor(rect.height() / static_cast<float>(grid.rows));
-  for (std::size_t k = 0; k <= image.others.size(); ++k) {
+  for (std::size_t k = 0; k < panes.size(); ++k) {
+    const unsigned branch = panes[k].branch;
     const int column = static_cast<int>(k) % grid.columns;
     const int row = static_cast<int>(k) / grid.columns;
     const ImVec2 low{rect.low.x + static_cast<float>(column) * width,
                      rect.low.y + static_cast<float>(row) * height};
     const Rect cell{low, {low.x + width, low.y + height}};
-    draw_part(draw, k == 0 ? image.texture : image.others[k - 1], cell, 0, 1);
-    draw.AddRect(cell.low, cell.high, color::kLine);
-    const unsigned branch = k == 0                            ? s.timeline.cursor.branch
-                            : k - 1 < s.shown_branches.size() ? s.shown_branches[k - 1]
-                                                              : 0;
+    draw_part(draw, panes[k].texture, cell, 0, 1);
+    const bool present = branch == s.timeline.cursor.branch;
+    draw.AddRect(cell.low, cell.high, present ? color::kTextFaint : color::kLine);
     if (branch >= s.timeline.branches.size()) continue;
-    const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
-    draw_name(ui, draw, s.timeline.branches[branch].name + ", iteration " + std::to_string(at),
-              {cell.low.x, cell.high.y}, cell.width(), true,
+    draw_name(ui, draw, name_of_run(ui, branch, cell.width()), {cell.low.x, cell.high.y}, cell.width(), true,
               color::kBranches[branch % std::size(color::kBranches)]);
     mark_area(ui, "view/" + std::to_string(k), cell);
   }
@@ -253,7 +276,15 @@ int choose_mode(const Ui& ui, const Rect& rect) {
 float compare_bar_height(const UiState& state, float width, float scale) {
   if (!shows_bar(state, width, scale)) return 0;
   const float more = state.comparison.mode == CompareMode::off ? 0 : kRowGap + size::kControl;
-  return (kBarEdge + 2 * kBarPadY + size::kControl + more) * scale;
+  return std::floor((kBarEdge + 2 * kBarPadY + size::kControl + more) * scale);
+}
+
+Rect room_of_pictures(const Ui& ui, Rect viewport, const ViewportImage& image) {
+  const Comparison& comparison = ui.state.comparison;
+  const bool pair = image.before != nullptr && comparison.mode == CompareMode::side_by_side;
+  if (pair || !image.others.empty())
+    viewport.low.y += compare_bar_height(ui.state, viewport.width(), ui.scale);
+  return viewport;
 }
 
 void draw_compare_bar(const Ui& ui, const Rect& rect) {

@@ -99,11 +99,11 @@ Output Interface::frame(const model::Session& session, const FrameOptions& optio
     handle_keys(ui, usable);
   }
   draw(ui, options);
+  follow_dialog();
   ImGui::Render();
   // Dear ImGui settles hover, focus and sizes within two frames of an input.
   settle_frames_ = had_input ? 2 : std::max(0, settle_frames_ - 1);
-  if (state_.comparison.mode == CompareMode::blink || state_.playing.direction != 0)
-    settle_frames_ = std::max(1, settle_frames_);
+  if (state_.playing.direction != 0) settle_frames_ = std::max(1, settle_frames_);
   // A tooltip waits for its time to come, which only frames let pass.
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (context.HoveredId != 0 && context.HoveredIdTimer < 2 * kTooltipDelay)
@@ -127,6 +127,19 @@ void Interface::handle_keys(const Ui& ui, std::span<const KeyChanged> pressed) {
     }
     if (const Shortcut* shortcut = find_shortcut(press)) perform(ui, shortcut->action);
   }
+}
+
+// Dear ImGui gives the keyboard to some control when a dialog closes; where none had it before, keys are the
+// viewport's again.
+void Interface::follow_dialog() {
+  const bool open = dialog_open();
+  if (open && !dialog_shown_) had_focus_ = !state_.focused.empty();
+  if (!open && dialog_shown_ && !had_focus_) {
+    state_.focused.clear();
+    ImGui::SetWindowFocus(nullptr);
+    ImGui::GetCurrentContext()->NavDisableHighlight = true;
+  }
+  dialog_shown_ = open;
 }
 
 void Interface::move_focus(int direction) {
@@ -154,9 +167,9 @@ void Interface::draw(const Ui& ui, const FrameOptions& options) {
   draw_viewport(ui, layout.viewport, options.viewport);
   if (!state_.panels_hidden) {
     draw_top_bar(ui, layout.top);
-    draw_settings_panel(ui, layout.left);
-    draw_side_panel(ui, layout.right);
-    if (layout.timeline.height() > 0) draw_timeline(ui, layout.timeline);
+    if (!layout.folded) draw_settings_panel(ui, layout.left);
+    draw_side_panel(ui, layout.right, layout.folded);
+    if (layout.timeline.height() > 0) draw_timeline(ui, layout.timeline, layout.folded);
     draw_status_bar(ui, layout.status);
     draw_splitters(ui, layout);
   }

@@ -43,8 +43,13 @@ class Interface {
   void drop(std::filesystem::path path) { dropped_ = std::move(path); }
   /// The user asked the window to close.
   void ask_to_quit() { quit_asked_ = true; }
-  /// Whether the interface wants to be drawn again without new input: something moves or waits.
-  [[nodiscard]] bool is_restless() const { return !input_.empty() || settle_frames_ > 0; }
+  /// Whether the interface has taken in all input, and nothing in it is on its way: it looks the same in the
+  /// next frame, but for a blink, which never ends.
+  [[nodiscard]] bool has_settled() const { return input_.empty() && settle_frames_ == 0; }
+  /// Whether it wants to be drawn again without new input: something moves or waits.
+  [[nodiscard]] bool is_restless() const {
+    return !has_settled() || state_.comparison.mode == CompareMode::blink;
+  }
 
   /// The font atlas as 8-bit coverage, and a number that changes whenever it does.
   struct Atlas {
@@ -63,6 +68,7 @@ class Interface {
   void move_focus(int direction);
   void handle_keys(const Ui& ui, std::span<const KeyChanged> pressed);
   void draw(const Ui& ui, const FrameOptions& options);
+  void follow_dialog();
 
   FontFiles font_files_;
   ImGuiContext* context_;
@@ -74,6 +80,8 @@ class Interface {
   std::filesystem::path dropped_;
   bool quit_asked_ = false;
   int settle_frames_ = 0;
+  bool dialog_shown_ = false;
+  bool had_focus_ = false;  ///< a control, before the dialog opened
   std::unique_ptr<ImDrawList> composed_;
   ImDrawList* composed_list_ = nullptr;
   std::unique_ptr<ImDrawData> composed_data_;

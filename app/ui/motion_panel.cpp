@@ -20,6 +20,8 @@ void draw_spheres(const Ui& ui) {
   row_label(ui, "Sphere", kTip);
   const float gap = ui.px(6);
   const float each = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
+  // A narrow panel has smaller letters rather than the beginnings of numbers.
+  ImGui::PushFont(each < ui.px(54) ? ui.fonts.small : ui.fonts.text);
   for (std::size_t k = 0; k < kCounts.size(); ++k) {
     if (k > 0) ImGui::SameLine(0, gap);
     const bool open = ui.session.document && ui.session.document->sphere &&
@@ -32,6 +34,7 @@ void draw_spheres(const Ui& ui) {
     }
     tooltip(ui, kTip);
   }
+  ImGui::PopFont();
 }
 
 void draw_time(const Ui& ui) {

@@ -7,6 +7,7 @@ namespace isorelax::ui {
 /// Where everything is in a frame, in pixels.
 struct Layout {
   Rect top, left, viewport, timeline, right, status;
+  bool folded = false;  ///< the panel at the left has no room: its settings are a tab of the other one
 };
 /// The layout for a display of this size; hidden panels are empty.
 [[nodiscard]] Layout make_layout(const UiState& state, ImVec2 display, float scale);
@@ -32,6 +33,8 @@ struct Grid {
 /// Moves the divider of a split with the pointer; whether the pointer has hold of it. Belongs behind the
 /// viewport's item.
 [[nodiscard]] bool drag_divider(const Ui& ui, const Rect& rect);
+/// Where the pictures are in the viewport: several begin under the controls of the comparison.
+[[nodiscard]] Rect room_of_pictures(const Ui& ui, Rect viewport, const ViewportImage& image);
 /// Draws the pictures into a rectangle as the comparison asks, with their names and the divider of a split.
 void draw_pictures(const Ui& ui, ImDrawList& draw, const Rect& rect, const ViewportImage& image);
 /// The controls of the comparison, over the viewport.
@@ -49,17 +52,18 @@ inline constexpr float kSelectionStrip = 36;
 
 void draw_top_bar(const Ui& ui, const Rect& rect);
 void draw_settings_panel(const Ui& ui, const Rect& rect);
-/// The panel at the right with its tabs.
-void draw_side_panel(const Ui& ui, const Rect& rect);
+/// The panel at the right with its tabs; the settings are one of them where it is the only panel.
+void draw_side_panel(const Ui& ui, const Rect& rect, bool folded);
 /// What the tabs hold; inside a panel that has begun.
+void draw_settings(const Ui& ui);
 void draw_quality(const Ui& ui);
 /// The distributions of smallest angles and of areas, now and as opened.
 void draw_histograms(const Ui& ui, float height);
 void draw_inspector(const Ui& ui);
 void draw_debug(const Ui& ui);
 void draw_runs(const Ui& ui);
-/// Transport, stages and track of the timeline.
-void draw_timeline(const Ui& ui, const Rect& rect);
+/// Transport, stages and track of the timeline; with Run where the settings have no panel of their own.
+void draw_timeline(const Ui& ui, const Rect& rect, bool folded);
 /// The stages of the shown step behind what is in the line, up to `right`, in pixels.
 void draw_stages(const Ui& ui, float right);
 /// Goes on with a timeline that plays.

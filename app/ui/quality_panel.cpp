@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "smoothing/step_record.h"
 #include "ui/motion_panel.h"
@@ -67,10 +70,12 @@ std::array<Figure, 11> figures(const model::Session& session) {
   }};
 }
 
-void right_aligned(const Ui& ui, const std::string& text, ImU32 color) {
+void right_aligned(ImFont* font, const std::string& text, ImU32 color) {
+  ImGui::PushFont(font);
   const float width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::PopFont();
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
-  text_in(ui.fonts.text, color, text);
+  text_in(font, color, text);
 }
 
 enum class Verdict : std::uint8_t { better, worse };
@@ -100,14 +105,14 @@ void draw_figure(const Ui& ui, const Figure& f) {
     return number_text(f.format, value) + (std::isfinite(value) ? std::string(f.unit) : "");
   };
   ImGui::TableNextColumn();
-  right_aligned(ui, text(f.before), color::kTextDim);
+  right_aligned(ui.fonts.text, text(f.before), color::kTextDim);
   ImGui::TableNextColumn();
   // Compared as shown: a difference that cannot be read is none.
   const bool same = text(f.before) == text(f.now);
   const bool better = f.better == Better::larger ? f.now > f.before : f.now < f.before;
   const bool plain = same || f.better == Better::none || !std::isfinite(f.now);
   const ImU32 ink = plain ? color::kText : better ? color::kBetter : color::kWorse;
-  right_aligned(ui, text(f.now), ink);
+  right_aligned(ui.fonts.text, text(f.now), ink);
   const Rect number{ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
   const std::string name = "figure/" + std::string(f.label);
   mark_area(ui, name, number);
@@ -126,14 +131,59 @@ void draw_table(const Ui& ui) {
   ImGui::TableNextColumn();
   for (const char* title : {"original", "current"}) {
     ImGui::TableNextColumn();
-    ImGui::PushFont(ui.fonts.small);
-    const float width = ImGui::CalcTextSize(title).x;
-    ImGui::PopFont();
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
-    text_in(ui.fonts.small, color::kTextFaint, title);
+    right_aligned(ui.fonts.small, title, color::kTextFaint);
   }
   for (const Figure& f : figures(ui.session)) draw_figure(ui, f);
   ImGui::EndTable();
+}
+
+// A coloured edge for the run, as in its picture and in the plots.
+void draw_run_name(const Ui& ui, unsigned branch) {
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.px(4), low.y + height},
+                                            color::kBranches[branch % std::size(color::kBranches)]);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
+  const std::string name = ui.session.timeline.numbered_name(branch);
+  text_in(ui.fonts.text, branch == ui.session.timeline.cursor.branch ? color::kText : color::kTextDim,
+          fitted(*ui.fonts.text, name, ImGui::GetContentRegionAvail().x));
+}
+
+void draw_run_row(const Ui& ui, unsigned branch, const QualityReport& quality) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  draw_run_name(ui, branch);
+  const std::array values{quality.min_angle_deg, quality.max_angle_deg, quality.mean_min_angle_deg};
+  constexpr std::array<const char*, 3> kNames{"/smallest", "/largest", "/mean"};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    ImGui::TableNextColumn();
+    right_aligned(ui.fonts.text, number_text("%.2f", values[k]) + "\xC2\xB0", color::kText);
+    mark_area(ui, "run-figure/" + std::to_string(branch) + kNames[k],
+              {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
+  }
+}
+
+// What the runs beside each other have come to, at the iteration that is shown of each.
+void draw_run_table(const Ui& ui) {
+  const model::Session& s = ui.session;
+  if (s.other_states.empty() || s.other_states.size() != s.shown_branches.size()) return;
+  heading(ui, "RUNS AT ITERATION " + std::to_string(s.shared_iteration()));
+  if (!ImGui::BeginTable("run-figures", 4, ImGuiTableFlags_RowBg)) return;
+  constexpr std::array<const char*, 4> kTitles{"", "smallest", "largest", "mean"};
+  for (const char* title : kTitles)
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, *title == '\0' ? 2.1F : 1);
+  ImGui::TableNextRow();
+  for (const char* title : kTitles) {
+    ImGui::TableNextColumn();
+    right_aligned(ui.fonts.small, title, color::kTextFaint);
+  }
+  std::vector<std::pair<unsigned, const model::MeshState*>> rows{{s.timeline.cursor.branch, s.current.get()}};
+  for (std::size_t k = 0; k < s.other_states.size(); ++k)
+    rows.emplace_back(s.shown_branches[k], s.other_states[k].get());
+  std::ranges::sort(rows);
+  for (const auto& [branch, state] : rows) draw_run_row(ui, branch, state->quality());
+  ImGui::EndTable();
+  heading(ui, "THE PRESENT RUN");
 }
 
 }  // namespace
@@ -191,7 +241,9 @@ void add_runs_beside(const Ui& ui, double model::IterationRow::*field, LinePlot&
 
 void draw_history(const Ui& ui, float height) {
   const auto& rows = ui.session.history;
-  LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g"};
+  // As long as what was done.
+  const double end = ui.session.timeline.empty() ? 10 : 1;
+  LinePlot energy{.name = "energy-plot", .title = "ENERGY", .format = "%.7g", .x_end = end};
   energy.marker = ui.session.current->iteration;
   energy.lines.push_back(make_line(rows, &model::IterationRow::energy, "energy", color::kAccent));
   add_runs_beside(ui, &model::IterationRow::energy, energy);
@@ -203,7 +255,8 @@ void draw_history(const Ui& ui, float height) {
                   .unit = "\xC2\xB0",
                   .low = 0,
                   .high = 180,
-                  .ticks = {0, 60, 120, 180}};
+                  .ticks = {0, 60, 120, 180},
+                  .x_end = end};
   angles.marker = ui.session.current->iteration;
   angles.lines.push_back(make_line(rows, &model::IterationRow::min_angle_deg, "smallest", color::kAccent));
   if (ui.session.shown_branches.empty()) {
@@ -221,6 +274,7 @@ void draw_history(const Ui& ui, float height) {
 
 void draw_quality(const Ui& ui) {
   if (ui.session.moving() != nullptr) return draw_motion_quality(ui);
+  draw_run_table(ui);
   draw_table(ui);
   ImGui::Separator();
   ImGui::Dummy({0, ui.px(1)});
@@ -231,14 +285,19 @@ void draw_quality(const Ui& ui) {
   draw_history(ui, height);
 }
 
-void draw_side_panel(const Ui& ui, const Rect& rect) {
-  constexpr std::array<std::string_view, 4> kTabs{"Quality", "Inspect", "Debug", "Runs"};
+void draw_side_panel(const Ui& ui, const Rect& rect, bool folded) {
+  constexpr std::array<std::string_view, 5> kTabs{"Quality", "Inspect", "Debug", "Runs", "Settings"};
   begin_panel("side", rect);
+  // The settings have a panel of their own again.
+  if (!folded && ui.state.tab == SideTab::settings) ui.state.tab = SideTab::quality;
+  const std::span<const std::string_view> tabs(kTabs.data(), folded ? kTabs.size() : kTabs.size() - 1);
+  ImGui::PushFont(folded ? ui.fonts.small : ui.fonts.text);
   const int choice =
-      segmented(ui, "tab", kTabs, static_cast<int>(ui.state.tab), ImGui::GetContentRegionAvail().x);
+      segmented(ui, "tab", tabs, static_cast<int>(ui.state.tab), ImGui::GetContentRegionAvail().x);
+  ImGui::PopFont();
   if (choice >= 0) ui.state.tab = static_cast<SideTab>(choice);
   ImGui::Dummy({0, ui.px(2)});
-  if (!ui.session.current) {
+  if (!ui.session.current && ui.state.tab != SideTab::settings) {
     text_in(ui.fonts.text, color::kTextFaint, "No mesh is open.");
     ImGui::End();
     return;
@@ -257,6 +316,9 @@ void draw_side_panel(const Ui& ui, const Rect& rect) {
       break;
     case SideTab::runs:
       draw_runs(ui);
+      break;
+    case SideTab::settings:
+      draw_settings(ui);
       break;
   }
   ImGui::EndChild();

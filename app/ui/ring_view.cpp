@@ -22,16 +22,21 @@ struct Sheet {
 };
 
 // The vertex' tangent plane; where it has none, the plane of the area-weighted normal.
-void lay_sheet(const model::Session& s, const VertexExplanation& e, std::span<const Vec3> x, Sheet& sheet) {
-  const auto& triangles = s.document->mesh().triangles;
+void lay_sheet(const Ui& ui, const VertexExplanation& e, std::span<const Vec3> x, Sheet& sheet) {
+  const model::Document& document = *ui.session.document;
+  const auto& triangles = document.mesh().triangles;
   Vec3 normal = Vec3::Zero();
-  for (const Corner c : s.document->topology.corners_of(e.vertex)) {
+  for (const Corner c : document.topology.corners_of(e.vertex)) {
     const Triangle& t = triangles[c / 3];
     normal += area_vector(x[t[0]], x[t[1]], x[t[2]]);
   }
   if (normal.norm() > 0) normal.normalize();
-  // The view has up upwards where it can: so a ring looks as in the viewport.
-  const Vec3 wanted = std::abs(normal.y()) < 0.9 ? Vec3::UnitY() : Vec3(-Vec3::UnitZ());
+  // From the side from which the viewport sees it, and as it stands there: moves point the same way in both.
+  const Looking& looking = ui.state.looking;
+  if (normal.dot(looking.toward_eye) < 0) normal = -normal;
+  // Of what is seen edge-on, what is farther away is higher up.
+  const bool edge_on = std::abs(normal.dot(looking.up)) > 0.99;
+  const Vec3 wanted = !edge_on ? looking.up : Vec3(-looking.toward_eye);
   sheet.origin = e.before;
   sheet.up = (wanted - normal * normal.dot(wanted)).normalized();
   sheet.right = sheet.up.cross(normal);
@@ -78,7 +83,7 @@ void draw_ring(const Ui& ui, const VertexExplanation& e, float height) {
   const auto& triangles = ui.session.document->mesh().triangles;
   const Rect rect = begin_picture(ui, "ring", height);
   Sheet sheet;
-  lay_sheet(ui.session, e, x, sheet);
+  lay_sheet(ui, e, x, sheet);
   sheet.center = {rect.center().x, rect.center().y - ui.px(6)};
   double reach = 0;
   for (const Corner c : ui.session.document->topology.corners_of(e.vertex))

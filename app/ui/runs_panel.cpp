@@ -8,6 +8,8 @@ namespace isorelax::ui {
 namespace {
 
 constexpr std::size_t kMostBeside = 3;
+constexpr float kBesideButton = 60;  // points
+constexpr float kRemoveButton = 24;
 
 std::string range_text(const model::Branch& branch) {
   if (branch.motion) {
@@ -24,35 +26,54 @@ void toggle_beside(const Ui& ui, unsigned branch) {
   ui.command(model::ShowBranches{std::move(shown)});
 }
 
+// Beside the present run or not, and away with it, at the right of its row.
+void draw_branch_buttons(const Ui& ui, unsigned k, ImVec2 at) {
+  const model::Session& s = ui.session;
+  const std::string name = "branch/" + std::to_string(k);
+  if (k != s.timeline.cursor.branch) {
+    ImGui::SetCursorScreenPos(at);
+    const bool beside = std::ranges::find(s.shown_branches, k) != s.shown_branches.end();
+    if (small_button(ui, name + "/beside", beside ? "Hide" : "Beside",
+                     {.look = beside ? ButtonLook::pressed : ButtonLook::plain,
+                      .width = ui.px(kBesideButton),
+                      .enabled = beside || s.shown_branches.size() < kMostBeside}))
+      toggle_beside(ui, k);
+    tooltip(ui, "Show it beside the present run, at the same iteration and with the same camera.");
+  }
+  ImGui::SetCursorScreenPos({at.x + ui.px(kBesideButton + 4), at.y});
+  const std::string kept = why_kept(s, k);
+  if (small_button(ui, name + "/remove", "",
+                   {.icon = Icon::close,
+                    .look = ButtonLook::quiet,
+                    .width = ui.px(kRemoveButton),
+                    .enabled = kept.empty()}))
+    ui.command(model::RemoveRun{k});
+  tooltip(ui, kept.empty() ? "Remove this run. Can be undone." : kept);
+}
+
 void draw_branch(const Ui& ui, unsigned k) {
   const model::Session& s = ui.session;
   const model::Branch& branch = s.timeline.branches[k];
   const bool present = k == s.timeline.cursor.branch;
-  const std::string name = "branch/" + std::to_string(k);
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x - ui.px(72);
+  const float buttons = ui.px(8 + kBesideButton + 4 + kRemoveButton);
+  const float width = ImGui::GetContentRegionAvail().x - buttons;
   const float height = ui.px(44);
-  if (button(ui, name, "",
+  if (button(ui, "branch/" + std::to_string(k), "",
              {.look = present ? ButtonLook::pressed : ButtonLook::quiet, .width = width, .height = height}))
     ui.command(model::Seek{s.shared_iteration(), k});
   tooltip(ui, present ? "This run is shown." : "Show this run, with its settings.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({low.x + ui.px(8), low.y + ui.px(9)}, {low.x + ui.px(12), low.y + ui.px(35)},
                      color::kBranches[k % std::size(color::kBranches)], ui.px(2));
-  draw.AddText({low.x + ui.px(22), low.y + ui.px(5)}, color::kText, branch.name.c_str());
-  const std::string range = range_text(branch);
+  const float room = width - ui.px(22 + 6);
+  const std::string name = fitted(*ui.fonts.text, s.timeline.numbered_name(k), room);
+  draw.AddText({low.x + ui.px(22), low.y + ui.px(5)}, color::kText, name.c_str());
+  const std::string range = fitted(*ui.fonts.small, range_text(branch), room);
   draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {low.x + ui.px(22), low.y + ui.px(24)},
                color::kTextFaint, range.c_str());
-  if (present || s.timeline.branches.size() < 2) return;
   const ImVec2 below = ImGui::GetCursorScreenPos();
-  ImGui::SetCursorScreenPos({low.x + width + ui.px(8), low.y + ui.px(10)});
-  const bool beside = std::ranges::find(s.shown_branches, k) != s.shown_branches.end();
-  if (small_button(ui, name + "/beside", beside ? "Hide" : "Beside",
-                   {.look = beside ? ButtonLook::pressed : ButtonLook::plain,
-                    .width = ui.px(64),
-                    .enabled = beside || s.shown_branches.size() < kMostBeside}))
-    toggle_beside(ui, k);
-  tooltip(ui, "Show it beside the present run, at the same iteration and with the same camera.");
+  draw_branch_buttons(ui, k, {low.x + width + ui.px(8), low.y + ui.px(10)});
   ImGui::SetCursorScreenPos(below);
 }
 
@@ -63,8 +84,7 @@ void draw_difference(const Ui& ui) {
   heading(ui, "COMPARE TWO RUNS");
   std::vector<std::string> names;
   names.reserve(s.timeline.branches.size());
-  for (int k = 0; k < count; ++k)
-    names.push_back(std::to_string(k + 1) + "  " + s.timeline.branches[static_cast<std::size_t>(k)].name);
+  for (int k = 0; k < count; ++k) names.push_back(s.timeline.numbered_name(static_cast<unsigned>(k)));
   const std::vector<std::string_view> labels(names.begin(), names.end());
   int& with = ui.state.typing.compare_with;
   const int present = static_cast<int>(s.timeline.cursor.branch);
@@ -79,14 +99,17 @@ void draw_difference(const Ui& ui) {
   tooltip(ui, "The first iteration and vertex that differ in a bit.");
   if (!s.comparison) return;
   const TraceDifference& found = s.comparison->difference;
+  const std::string both =
+      "Runs " + std::to_string(s.comparison->first + 1) + " and " + std::to_string(s.comparison->second + 1);
   if (!found.parting) {
-    wrapped(ui.fonts.text, color::kBetter,
-            "The same to the bit for " + std::to_string(found.common_iterations) + " iterations.");
+    wrapped(
+        ui.fonts.text, color::kBetter,
+        both + " are the same to the bit for " + std::to_string(found.common_iterations) + " iterations.");
     mark_area(ui, "parting", {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()});
     return;
   }
   wrapped(ui.fonts.text, color::kText,
-          "They part at iteration " + std::to_string(found.parting->iteration) + ": " +
+          both + " part at iteration " + std::to_string(found.parting->iteration) + ": " +
               counted(found.parting->vertices, "vertex differs", "vertices differ") + " there, by up to " +
               number_text("%.3g", found.parting->largest) + "; in the end by " +
               number_text("%.3g", found.distance_at_end) + ".");

@@ -58,6 +58,41 @@ bool draw_presets(const Ui& ui, const Presets& presets, double& value, bool& typ
   return edited;
 }
 
+// Why what is said of the energy means nothing; empty: it does.
+std::string why_no_energy(const model::Session& s) {
+  if (s.smoothing.method == model::Method::near_isometry) return {};
+  return std::string(model::title(s.smoothing.method)) +
+         " smoothing knows no energy: this is of the other solvers.";
+}
+
+// Greys out what means nothing, and says why, for as long as it lives.
+class OfEnergy {
+ public:
+  explicit OfEnergy(const Ui& ui) : ui_(ui), reason_(why_no_energy(ui.session)) {
+    low_ = ImGui::GetCursorScreenPos();
+    width_ = ImGui::GetContentRegionAvail().x;
+    ImGui::BeginDisabled(!reason_.empty());
+  }
+  ~OfEnergy() {
+    ImGui::EndDisabled();
+    const ImVec2 high{low_.x + width_, ImGui::GetCursorScreenPos().y};
+    if (reason_.empty() || !ImGui::IsMouseHoveringRect(low_, high)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ui_.px(280));
+    ImGui::TextUnformatted(reason_.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  OfEnergy(const OfEnergy&) = delete;
+  OfEnergy& operator=(const OfEnergy&) = delete;
+
+ private:
+  const Ui& ui_;
+  std::string reason_;
+  ImVec2 low_{0, 0};
+  float width_ = 0;
+};
+
 void draw_solver(const Ui& ui) {
   // The last two know no energy: what others do.
   constexpr std::array<std::string_view, 6> kSolvers{"Automatic", "Jacobi (paper)", "Newton",
@@ -80,6 +115,11 @@ void draw_solver(const Ui& ui) {
     if (solver < kMinimisers) settings.solver = static_cast<Solver>(solver);
     change(ui, settings, "Solver");
   }
+}
+
+void draw_exponent(const Ui& ui) {
+  const OfEnergy of_energy(ui);
+  SmoothingSettings settings = ui.session.smoothing;
   constexpr std::array<std::string_view, 6> kLabels{"1", "2", "4", "8", "16", kOther};
   constexpr std::array kExponents{1.0, 2.0, 4.0, 8.0, 16.0};
   const Presets exponents{
@@ -100,6 +140,7 @@ void draw_mu(const Ui& ui) {
       "Weight of the area term, 0 to 1; the shape term has the rest. 0 makes good angles and lets areas "
       "differ, "
       "larger values even out the areas.";
+  const OfEnergy of_energy(ui);
   SmoothingSettings settings = ui.session.smoothing;
   auto mu = static_cast<float>(settings.mu_a);
   row_label(ui, "Area \xCE\xBC\xE2\x82\x90", kTip);
@@ -124,6 +165,7 @@ void draw_reference(const Ui& ui) {
       "The triangles that the mesh's ones ought to look like: equilateral ones, those of the opened mesh, or "
       "those of "
       "a file with the same connectivity.";
+  const OfEnergy of_energy(ui);
   SmoothingSettings settings = ui.session.smoothing;
   row_label(ui, "Reference", kTip);
   const int choice = combo(ui, "reference", kLabels, static_cast<int>(settings.reference));
@@ -375,8 +417,7 @@ void draw_display(const Ui& ui) {
 
 }  // namespace
 
-void draw_settings_panel(const Ui& ui, const Rect& rect) {
-  begin_panel("settings", rect);
+void draw_settings(const Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.px(5)});
   draw_task(ui);
   if (ui.session.task == model::Task::move) {
@@ -384,6 +425,7 @@ void draw_settings_panel(const Ui& ui, const Rect& rect) {
   } else {
     ImGui::BeginDisabled(ui.session.is_running());
     draw_solver(ui);
+    draw_exponent(ui);
     draw_mu(ui);
     draw_reference(ui);
     draw_boundary(ui);
@@ -397,6 +439,11 @@ void draw_settings_panel(const Ui& ui, const Rect& rect) {
   heading(ui, "COLOURS");
   draw_display(ui);
   ImGui::PopStyleVar();
+}
+
+void draw_settings_panel(const Ui& ui, const Rect& rect) {
+  begin_panel("settings", rect);
+  draw_settings(ui);
   ImGui::End();
 }
 

@@ -55,6 +55,7 @@ inline constexpr float kTopBar = 48;
 inline constexpr float kStatusBar = 30;
 inline constexpr float kControl = 30;
 inline constexpr float kTimeline = 116;
+inline constexpr float kLowTimeline = 72;  ///< without its words
 }  // namespace size
 
 /// Bytes of OpenType fonts with Latin and Greek letters.

@@ -24,6 +24,21 @@ struct Transport {
 };
 
 constexpr float kRoomForSpeed = 360;  // width of the timeline, in points
+constexpr float kRunButton = 40;
+
+// What the settings have where they are not seen.
+void draw_run(const Ui& ui) {
+  const bool running = ui.session.is_running();
+  if (button(ui, "transport-run", "",
+             {.icon = running ? Icon::pause : Icon::run,
+              .look = ButtonLook::accent,
+              .width = ui.px(kRunButton - 6),
+              .height = ui.px(26),
+              .enabled = running || ui.session.can_smooth()}))
+    perform(ui, Action::run_pause);
+  tooltip(ui, running ? "Stop after this step." : "Run, as the settings say.", keys_of(Action::run_pause));
+  ImGui::SameLine(0, ui.px(6));
+}
 
 void draw_transport(const Ui& ui, bool with_speed) {
   const Playing& playing = ui.state.playing;
@@ -205,21 +220,10 @@ void scrub(const Ui& ui, const Track& track) {
   ImGui::EndTooltip();
 }
 
-void draw_track(const Ui& ui, const Rect& area) {
+void draw_ticks(const Ui& ui, const Track& track) {
   const model::Session& s = ui.session;
+  const Rect& area = track.area;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const Track track{area, std::max(1U, s.timeline.longest())};
-  draw.AddRectFilled(area.low, area.high, color::kBackdrop, ui.px(4));
-  ImGui::SetCursorScreenPos({area.low.x - ui.px(6), area.low.y - ui.px(6)});
-  ImGui::InvisibleButton("track", {area.width() + ui.px(12), area.height() + ui.px(10)});
-  mark_area(ui, "track", area);
-  if (s.timeline.empty()) return;
-  draw_curve(track, s.history, &model::IterationRow::energy, faded(color::kAccent, 0.55F), ui.px(1.25F));
-  draw_curve(track, s.history, &model::IterationRow::min_angle_deg, faded(color::kSecond, 0.55F),
-             ui.px(1.25F));
-  draw_lanes(ui, track);
-  draw_hits(ui, track);
-  draw_cursor(ui, track);
   const float line = ui.fonts.small->FontSize;
   float free = area.low.x;
   for (const double t : round_ticks(0, track.last, s.moving() != nullptr ? 5 : 8)) {
@@ -234,6 +238,24 @@ void draw_track(const Ui& ui, const Rect& area) {
     free = x + width + ui.px(6);
     draw.AddText(ui.fonts.small, line, {x, area.high.y + ui.px(3)}, color::kTextFaint, text.c_str());
   }
+}
+
+void draw_track(const Ui& ui, const Rect& area, bool with_ticks) {
+  const model::Session& s = ui.session;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const Track track{area, std::max(1U, s.timeline.longest())};
+  draw.AddRectFilled(area.low, area.high, color::kBackdrop, ui.px(4));
+  ImGui::SetCursorScreenPos({area.low.x - ui.px(6), area.low.y - ui.px(6)});
+  ImGui::InvisibleButton("track", {area.width() + ui.px(12), area.height() + ui.px(10)});
+  mark_area(ui, "track", area);
+  if (s.timeline.empty()) return;
+  draw_curve(track, s.history, &model::IterationRow::energy, faded(color::kAccent, 0.55F), ui.px(1.25F));
+  draw_curve(track, s.history, &model::IterationRow::min_angle_deg, faded(color::kSecond, 0.55F),
+             ui.px(1.25F));
+  draw_lanes(ui, track);
+  draw_hits(ui, track);
+  draw_cursor(ui, track);
+  if (with_ticks) draw_ticks(ui, track);
   scrub(ui, track);
 }
 
@@ -260,15 +282,8 @@ void draw_curve_key(const Ui& ui, float right, float y) {
   }
 }
 
-}  // namespace
-
-void draw_timeline(const Ui& ui, const Rect& rect) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(8)});
-  begin_panel("timeline", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  draw_transport(ui, rect.width() >= ui.px(kRoomForSpeed));
-  // Steps of a moving surface have no stages.
-  if (!ui.session.timeline.empty() && ui.session.moving() == nullptr)
-    draw_stages(ui, rect.width() - ui.px(14));
+// What is shown in words, what the curves are, and the track with its numbers.
+void draw_captioned_track(const Ui& ui, const Rect& rect) {
   const float line = ui.fonts.small->FontSize;
   const float top = rect.low.y + ui.px(41);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -278,8 +293,32 @@ void draw_timeline(const Ui& ui, const Rect& rect) {
   const float left = room - text_width(*ui.fonts.small, text);
   if (!ui.session.timeline.empty() && curve_key_width(ui) <= left)
     draw_curve_key(ui, rect.high.x - ui.px(14), top);
-  draw_track(ui, {{rect.low.x + ui.px(16), top + line + ui.px(8)},
-                  {rect.high.x - ui.px(16), rect.high.y - line - ui.px(6)}});
+  draw_track(ui,
+             {{rect.low.x + ui.px(16), top + line + ui.px(8)},
+              {rect.high.x - ui.px(16), rect.high.y - line - ui.px(6)}},
+             true);
+}
+
+}  // namespace
+
+void draw_timeline(const Ui& ui, const Rect& rect, bool folded) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(14), ui.px(8)});
+  begin_panel("timeline", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (folded) draw_run(ui);
+  draw_transport(ui, rect.width() >= ui.px(folded ? kRoomForSpeed + kRunButton : kRoomForSpeed));
+  // Steps of a moving surface have no stages.
+  if (!ui.session.timeline.empty() && ui.session.moving() == nullptr)
+    draw_stages(ui, rect.width() - ui.px(14));
+  const bool low = rect.height() < ui.px(size::kTimeline);
+  if (low) {
+    draw_track(
+        ui,
+        {{rect.low.x + ui.px(16), rect.low.y + ui.px(45)}, {rect.high.x - ui.px(16), rect.high.y - ui.px(6)}},
+        false);
+  } else {
+    draw_captioned_track(ui, rect);
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddLine(rect.low, {rect.high.x, rect.low.y}, color::kLine);
   mark_area(ui, "timeline", rect);
   ImGui::End();

@@ -136,8 +136,8 @@ struct FileBrowser {
 struct PendingQuit {};
 using PendingAction = std::variant<std::monostate, PendingQuit, std::filesystem::path, SphereStart>;
 
-/// What the panel at the right shows.
-enum class SideTab : std::uint8_t { quality, inspect, debug, runs };
+/// What the panel at the right shows; settings only where there is no other panel for them.
+enum class SideTab : std::uint8_t { quality, inspect, debug, runs, settings };
 
 /// The timeline playing by itself.
 struct Playing {
@@ -159,6 +159,13 @@ struct Typing {
   bool exponent = false, tolerance = false;  ///< other ones than the usual, even where they are the same
 };
 
+/// How the viewport looks at the mesh: unit vectors.
+struct Looking {
+  Vec3 up = Vec3::UnitY();
+  Vec3 toward_eye = Vec3::UnitZ();
+  double triangle_pixels = 100;  ///< square root of the pixels that a triangle has on average, seen straight
+};
+
 /// State of the widgets: nothing here is about the mesh.
 struct UiState {
   bool panels_hidden = false;
@@ -178,6 +185,7 @@ struct UiState {
   std::uint64_t dismissed_message = 0;
   std::array<float, 2> typed_range{0, 1};
   Comparison comparison;
+  Looking looking;
 
   /// Where each named widget was drawn in the last frame.
   std::map<std::string, Rect, std::less<>> rects;

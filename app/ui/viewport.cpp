@@ -65,6 +65,16 @@ void draw_welcome(const Ui& ui, const Rect& rect) {
   }
 }
 
+// Whether what did not work has worked since, or what was to be done is done.
+bool is_answered(const model::Session& session, const model::Message& message) {
+  if (message.topic == model::Topic::other) return false;
+  if (message.topic == model::Topic::turning)
+    return session.current && session.current->geometry != session.original->geometry;
+  return std::ranges::any_of(session.messages, [&](const model::Message& m) {
+    return m.number > message.number && m.topic == message.topic && m.kind == model::MessageKind::info;
+  });
+}
+
 /// The newest error, or the warnings that came together, each on its line.
 std::string notice_text(const Ui& ui, const model::Message& newest) {
   if (newest.kind == model::MessageKind::error) return newest.text;
@@ -75,19 +85,12 @@ std::string notice_text(const Ui& ui, const model::Message& newest) {
   for (auto m = messages.rbegin(); m != messages.rend() && lines < kMostLines; ++m) {
     if (m->number > newest.number || m->kind == model::MessageKind::info) continue;
     if (m->number <= ui.state.dismissed_message || m->kind == model::MessageKind::error) break;
+    if (is_answered(ui.session, *m)) continue;
     if (lines > 0) text.insert(0, "\n");
     text.insert(0, m->text);
     ++lines;
   }
   return text;
-}
-
-// Whether what did not work has worked since.
-bool is_answered(const model::Session& session, const model::Message& message) {
-  if (message.topic == model::Topic::other) return false;
-  return std::ranges::any_of(session.messages, [&](const model::Message& m) {
-    return m.number > message.number && m.topic == message.topic && m.kind == model::MessageKind::info;
-  });
 }
 
 // The newest error or the warnings stay over the viewport until they are dismissed or answered.
@@ -216,7 +219,9 @@ void draw_viewport(const Ui& ui, const Rect& rect, const ViewportImage& image) {
     const bool divides = drag_divider(ui, rect);
     if (!divides) navigate(ui, rect);
     pick(ui, rect, divides);
-    draw_pictures(ui, *ImGui::GetWindowDrawList(), rect, image);
+    const Rect pictures = room_of_pictures(ui, rect, image);
+    draw_pictures(ui, *ImGui::GetWindowDrawList(), pictures, image);
+    mark_area(ui, "pictures", pictures);
     const float bottom = lowest_card(ui, rect, image);
     draw_moment(ui, rect, bottom, draw_selection(ui, rect, bottom));
   } else if (ui.session.activity != model::Activity::loading) {

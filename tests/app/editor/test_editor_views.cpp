@@ -254,6 +254,22 @@ TEST_F(EditorViews, AChangeHasZeroInTheMiddleWhateverRangeIsTyped) {
   EXPECT_TRUE(part("viewport") == change);
 }
 
+TEST_F(EditorViews, NothingWaitsForABlinkToEnd) {
+  open(folder.make_square());
+  compare(ui::CompareMode::blink);
+  frames(4);
+  EXPECT_TRUE(editor.has_settled());
+  EXPECT_TRUE(editor.is_restless()) << "a window goes on drawing it";
+}
+
+TEST_F(EditorViews, PanesBeginUnderTheControlsOfTheComparison) {
+  open(folder.make_square());
+  run(3);
+  compare(ui::CompareMode::side_by_side);
+  const auto& rects = editor.interface().state().rects;
+  EXPECT_GE(rects.at("pane-legend").low.y, rects.at("compare-bar").high.y - 1);
+}
+
 TEST(Partner, ASecondFileIsNotKeptWaitingForTheFirst) {
   const test::TemporaryFolder folder;
   const std::filesystem::path large = folder.make_square(60000, "large.off");
@@ -338,7 +354,7 @@ TEST_F(EditorViews, ASavedPictureShowsRunsBesideEachOther) {
   editor.ask(ui::SavePicture{folder / "beside.png"});
   const Image saved = render::read_png(folder / "beside.png");
   settle();
-  const Image shown = part("viewport");
+  const Image shown = part("pictures");
   ASSERT_EQ(saved.width, shown.width);
   ASSERT_EQ(saved.height, shown.height);
   // The edges of names may be rounded otherwise at another place.
@@ -358,7 +374,7 @@ TEST_F(EditorViews, ASavedPictureShowsTheComparisonAsTheViewportDoes) {
     editor.ask(ui::SavePicture{path});
     const Image saved = render::read_png(path);
     settle();
-    const Image shown = part("viewport");
+    const Image shown = part("pictures");
     ASSERT_EQ(saved.width, shown.width);
     ASSERT_EQ(saved.height, shown.height);
     // All below the controls.

@@ -94,8 +94,9 @@ TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
 TEST_F(ScriptTest, WhatIsNotThereIsRefusedWithItsLine) {
   (void)folder.make_square();
   const std::string open = "open square.off\nset --tolerance 0\nrun 3\n";
-  for (const char* wrong : {"view range=banana", "view range=30:0", "view range=", "vertex 99999",
-                            "triangle 99999", "pin 99999", "seek 4", "seek 0 1", "beside 1", "compare 0 1"})
+  for (const char* wrong :
+       {"view range=banana", "view range=30:0", "view range=", "vertex 99999", "triangle 99999", "pin 99999",
+        "seek 4", "seek 0 2", "seek 0 0", "beside 2", "compare 1 2", "remove 2"})
     EXPECT_NE(complaint(open + wrong + "\n").find("a.script: line 4: "), std::string::npos) << wrong;
   EXPECT_EQ(complaint(open + "seek 3\nseek 0\nview range=current\n"), "");
   EXPECT_NE(complaint("vertex 0\n").find("none at all"), std::string::npos);
@@ -275,7 +276,7 @@ TEST(ScriptWords, CommandsReadBackAsTheyWere) {
            model::StepStage{-1}, model::SelectVertex{9}, model::SelectLimited{4U}, model::SelectLimited{},
            model::SetWorstBy{model::WorstBy::shape}, model::ShowBranches{{0, 2}},
            model::SetStepBudget{std::size_t{64} << 20U}, model::TogglePin{5}, model::Teach{},
-           model::Undo{}}) {
+           model::RemoveRun{1}, model::CompareBranches{0, 2}, model::Undo{}}) {
     const std::string line = to_line(command);
     const auto back = parse_line(split_words(line), session, {});
     ASSERT_TRUE(back) << line;

@@ -354,6 +354,112 @@ TEST_F(TimelineTest, TheThreeMethodsStandSideBySide) {
   EXPECT_NE(session.other_states[0]->geometry, at_three) << "they share the timeline";
 }
 
+TEST_F(TimelineTest, AComparisonOfMethodsIsTakenBackAtOnce) {
+  open();
+  run(2);
+  const Cursor before = timeline().cursor;
+  const auto positions = shown();
+  act(Teach{});
+  const std::size_t runs = timeline().branches.size();
+  ASSERT_GT(runs, 2U);
+  act(Undo{});
+  EXPECT_EQ(timeline().branches.size(), 1U);
+  EXPECT_TRUE(session.shown_branches.empty());
+  EXPECT_TRUE(session.other_states.empty());
+  EXPECT_EQ(timeline().cursor, before);
+  EXPECT_EQ(shown(), positions);
+  EXPECT_EQ(session.smoothing.method, Method::near_isometry);
+  act(Redo{});
+  EXPECT_EQ(timeline().branches.size(), runs);
+  EXPECT_EQ(session.shown_branches.size(), 2U);
+  EXPECT_EQ(session.other_states.size(), 2U);
+  act(Seek{3, 1U});
+  EXPECT_EQ(session.current->iteration, 3U);
+  // What began in one of them since goes with it, though it is undone itself.
+  set([](SmoothingSettings& s) { s.boundary = BoundaryRule::slide; });
+  run(2);
+  ASSERT_EQ(timeline().branches.size(), runs + 1);
+  while (timeline().branches.size() > 1 && session.undo.next_undo() != nullptr) act(Undo{});
+  EXPECT_EQ(timeline().branches.size(), 1U);
+  while (session.undo.next_redo() != nullptr) act(Redo{});
+  EXPECT_EQ(timeline().branches.size(), runs + 1);
+  act(Seek{4, static_cast<unsigned>(runs)});
+  EXPECT_EQ(session.current->iteration, 4U);
+}
+
+TEST_F(TimelineTest, AComparisonOfMethodsThatWasStoppedIsTakenBackAsWell) {
+  open();
+  set([](SmoothingSettings& s) {
+    s.iterations = 100000;
+    s.tolerance = 0;
+  });
+  execute(session, Teach{});
+  while (timeline().empty() || timeline().branches.back().steps.empty()) execute(session, Collect{});
+  execute(session, Pause{});
+  finish(session);
+  ASSERT_FALSE(timeline().empty());
+  act(Undo{});
+  EXPECT_TRUE(timeline().empty());
+  EXPECT_EQ(session.current->geometry, session.original->geometry);
+  ASSERT_NE(session.undo.next_undo(), nullptr);
+  EXPECT_EQ(session.undo.next_undo()->label, "test") << "nothing is left of it";
+}
+
+TEST_F(TimelineTest, ARunCanBeRemovedAndComesBack) {
+  open();
+  run(4);
+  set([](SmoothingSettings& s) { s.solver = Solver::jacobi; });
+  act(Seek{0, {}});
+  act(model::Run{});
+  act(Seek{2, {}});
+  set([](SmoothingSettings& s) { s.boundary = BoundaryRule::slide; });
+  act(model::Run{});
+  ASSERT_EQ(timeline().branches.size(), 3U);
+  const auto last = shown();
+  EXPECT_NE(why_kept(session, 1), "") << "the third began at a step of it";
+  act(RemoveRun{1});
+  EXPECT_EQ(timeline().branches.size(), 3U);
+  EXPECT_NE(session.messages.back().text.find("3  "), std::string::npos) << session.messages.back().text;
+  // The second began at the start, which needs no step of the first.
+  act(RemoveRun{0});
+  ASSERT_EQ(timeline().branches.size(), 2U);
+  EXPECT_EQ(timeline().cursor.branch, 1U);
+  EXPECT_EQ(shown(), last);
+  act(Seek{1, {}});
+  EXPECT_EQ(session.current->iteration, 1U);
+  act(Undo{});
+  ASSERT_EQ(timeline().branches.size(), 3U);
+  EXPECT_EQ(timeline().branches[1].parent, 0U);
+  EXPECT_EQ(timeline().branches[2].parent, 1U);
+  act(Redo{});
+  act(RemoveRun{1});
+  EXPECT_EQ(timeline().cursor.branch, 0U) << "where it began";
+  EXPECT_EQ(timeline().cursor.iteration, 2U);
+  act(RemoveRun{0});
+  EXPECT_TRUE(timeline().empty());
+  EXPECT_EQ(session.current->geometry, session.original->geometry);
+  while (session.undo.next_undo() != nullptr) act(Undo{});
+  while (session.undo.next_redo() != nullptr) act(Redo{});
+  EXPECT_TRUE(timeline().empty());
+}
+
+TEST_F(TimelineTest, PositionsOfAnyFileAreNotLost) {
+  open();
+  run(4);
+  act(SaveFile{folder / "four.off"});
+  act(Seek{0, {}});
+  EXPECT_FALSE(session.has_unsaved_changes()) << "the mesh as opened is on disk";
+  EXPECT_FALSE(session.would_lose_work());
+  act(Seek{3, {}});
+  EXPECT_TRUE(session.has_unsaved_changes());
+  act(Seek{4, {}});
+  EXPECT_FALSE(session.has_unsaved_changes());
+  // Where it was written over, it is not.
+  act(SaveFile{folder / "square.off"});
+  act(Seek{0, {}});
+  EXPECT_TRUE(session.has_unsaved_changes());
+}
+
 TEST_F(TimelineTest, ABranchIsNamedByAllThatTheRunWhichItLeavesDoesOtherwise) {
   open();
   run(3);

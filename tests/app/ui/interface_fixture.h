@@ -22,7 +22,7 @@ inline FontFiles test_fonts() {
 class InterfaceTest : public ::testing::Test {
  protected:
   void frame() {
-    const Output output = interface.frame(session, {.display = display});
+    const Output output = interface.frame(session, {.display = display, .scale = scale});
     for (const model::Command& command : output.commands) model::execute(session, command);
     requests.insert(requests.end(), output.requests.begin(), output.requests.end());
     model::execute(session, model::Collect{});
@@ -74,6 +74,7 @@ class InterfaceTest : public ::testing::Test {
   Interface interface { test_fonts() };
   std::vector<Request> requests;
   ImVec2 display{1280, 720};
+  float scale = 1;
 };
 
 }  // namespace isorelax::ui

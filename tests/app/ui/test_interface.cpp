@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "app/ui/interface_fixture.h"
+#include "io/mesh_file.h"
+#include "mesh/topology.h"
 #include "ui/widgets.h"
 
 namespace isorelax::ui {
@@ -380,13 +382,99 @@ TEST_F(InterfaceTest, ASmallWindowHasMenusForWhatDoesNotFit) {
 }
 
 TEST_F(InterfaceTest, ChoicesWhoseLabelsDoNotFitAreAMenu) {
-  display = {800, 600};
+  interface.state().left_width = 240;
   open();
   EXPECT_TRUE(shows("boundary/Slide"));
   EXPECT_FALSE(shows("reach/Near"));
   click("reach");
   click("reach/Near");
   EXPECT_EQ(session.smoothing.reach, model::Reach::nearest);
+}
+
+TEST_F(InterfaceTest, AtALargeScaleASinglePanelHasTheSettingsAndNothingIsOutside) {
+  open();
+  for (const float size : {1.5F, 2.0F}) {
+    scale = size;
+    interface.state().tab = SideTab::quality;
+    settle();
+    const auto& rects = interface.state().rects;
+    for (const char* name : {"open", "undo", "coloring", "wire", "shading", "frame", "help", "transport-run",
+                             "to-start", "to-end", "track", "compare-bar", "tab/Settings"}) {
+      ASSERT_TRUE(shows(name)) << name << " at " << size;
+      EXPECT_LE(rects.at(name).high.x, display.x) << name << " at " << size;
+      EXPECT_LE(rects.at(name).high.y, display.y) << name << " at " << size;
+      EXPECT_GE(rects.at(name).width(), 20 * size) << name << " at " << size;
+    }
+    EXPECT_LT(rects.at("to-end").high.x, rects.at("viewport").high.x) << size;
+    EXPECT_GT(rects.at("viewport").height(), display.y / 2 - 2) << size;
+    EXPECT_FALSE(shows("solver"));
+    click("tab/Settings");
+    EXPECT_TRUE(shows("solver"));
+  }
+  click("transport-run");
+  EXPECT_GT(session.current->iteration, 0U);
+  scale = 1;
+  settle();
+  EXPECT_EQ(interface.state().tab, SideTab::quality) << "the settings have their own panel again";
+  EXPECT_TRUE(shows("solver"));
+}
+
+TEST_F(InterfaceTest, SpaceRunsAfterAQuestionThatEscapeAnswers) {
+  open();
+  click("step");
+  interface.state().focused.clear();
+  press(Key::escape);
+  press(Key::q, {.control = true});
+  EXPECT_TRUE(shows("unsaved-save"));
+  press(Key::escape);
+  EXPECT_FALSE(shows("unsaved-save"));
+  EXPECT_EQ(interface.state().focused, "");
+  press(Key::space);
+  EXPECT_GT(session.current->iteration, 2U);
+}
+
+TEST_F(InterfaceTest, WhatAMethodWithoutAnEnergyHasNoUseForIsGrey) {
+  open();
+  const auto reaches = [&](const char* name) {
+    return std::ranges::find(interface.state().stops, name) != interface.state().stops.end();
+  };
+  for (const char* name : {"exponent/2", "mu", "reference"}) EXPECT_TRUE(reaches(name)) << name;
+  session.smoothing.method = model::Method::laplacian;
+  settle();
+  for (const char* name : {"exponent/2", "mu", "reference"}) EXPECT_FALSE(reaches(name)) << name;
+  EXPECT_TRUE(reaches("solver"));
+  EXPECT_TRUE(reaches("boundary/Fixed"));
+}
+
+TEST_F(InterfaceTest, EachOfTheThreeMethodsHasItsFigures) {
+  open();
+  session.smoothing.iterations = 3;
+  model::execute(session, model::Teach{});
+  settle_and_finish();
+  press(Key::q);
+  for (const char* name : {"run-figure/0/smallest", "run-figure/1/largest", "run-figure/2/mean"})
+    EXPECT_TRUE(shows(name)) << name;
+  EXPECT_LT(interface.state().rects.at("run-figure/0/mean").center().y,
+            interface.state().rects.at("run-figure/1/mean").center().y);
+}
+
+TEST_F(InterfaceTest, ANoteGoesWhenWhatItSaysIsDone) {
+  TriangleMesh mesh = read_mesh(folder.make_square()).mesh;
+  const Topology topology(mesh.triangles, mesh.vertex_count());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (topology.is_boundary(v)) continue;
+    mesh.positions[v].x() += 0.3;
+    break;
+  }
+  (void)write_mesh(folder / "thrown.off", mesh);
+  model::execute(session, model::OpenFile{folder / "thrown.off"});
+  settle_and_finish();
+  ASSERT_GT(session.current->quality().inverted, 0U);
+  ASSERT_TRUE(shows("notice"));
+  click("run");
+  EXPECT_FALSE(shows("notice"));
+  press(Key::home);
+  EXPECT_TRUE(shows("notice")) << "there it is true again";
 }
 
 TEST_F(InterfaceTest, TheInspectorSaysWhatIsSelected) {
@@ -421,7 +509,7 @@ TEST_F(InterfaceTest, NothingOverlapsInTheSmallestWindow) {
 TEST_F(InterfaceTest, WhatIsWrittenInANarrowPanelStaysApart) {
   display = {800, 600};
   open();
-  click("run");
+  click("transport-run");
   model::execute(session, model::SelectVertex{130});
   settle_and_finish();
   interface.state().tab = SideTab::inspect;
