@@ -28,7 +28,7 @@ class ScriptCommand : public Command {
            "  run 20\n"
            "  seek 3\n"
            "  vertex 812\n"
-           "  stage control\n"
+           "  stage proposed\n"
            "  screenshot why.png\n"
            "  expect vertex(812).alpha > 0.1\n\n"
            "  isorelax script why.script --size 1600x1000";

@@ -84,6 +84,7 @@ void add_arrows(const model::Session& session, std::span<const Vec3> x, const mo
       const double length = v.norm();
       if (length > 0) v *= 0.9 * edge * std::sqrt(length / (length + usual)) / length;
     }
+    scene.caption = "Arrows: downhill, longer where it is steeper, not to scale";
   } else {
     // All stages of a step share a factor, so that their arrows can be compared.
     const double usual = usual_length(record.detail ? record.detail->proposed : record.displacement);

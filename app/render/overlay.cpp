@@ -48,7 +48,7 @@ void veil(Canvas& canvas, const Scene& scene, int top, PictureSize size) {
   const Background& background = scene.background;
   for (int y = 0; y < canvas.image().height; ++y) {
     const double below_top = std::clamp((top + y + 0.5) / size.height, 0.0, 1.0);
-    canvas.fill(0, y, canvas.image().width, y + 1, mix(background.top, background.bottom, below_top), 0.6);
+    canvas.fill(0, y, canvas.image().width, y + 1, mix(background.top, background.bottom, below_top), 0.85);
   }
 }
 

@@ -154,13 +154,16 @@ Rect beside_legend(const Ui& ui, ImDrawList& draw, Rect rect, const ViewportImag
   return rect;
 }
 
-// With its number and the iteration that it shows; the word for that only where it has room.
+// With its number and the iteration that it shows; that, and the word for it, only where they have room.
 std::string name_of_run(const Ui& ui, unsigned branch, float width) {
   const model::Session& s = ui.session;
   const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
-  const std::string name = s.timeline.numbered_name(branch) + ", ";
-  const std::string whole = name + "iteration " + std::to_string(at);
-  return text_width(*ui.fonts.text, whole) <= width - ui.px(44) ? whole : name + std::to_string(at);
+  const std::string name = s.timeline.numbered_name(branch);
+  for (const char* word : {", iteration ", ", "}) {
+    const std::string whole = name + word + std::to_string(at);
+    if (text_width(*ui.fonts.text, whole) <= width - ui.px(44)) return whole;
+  }
+  return name;
 }
 
 /// A run and its picture.

@@ -83,8 +83,8 @@ render::Legend legend_of(const View& view, const render::Coloring& coloring, std
   if (view.color == ColorBy::classes) {
     render::Legend legend;
     legend.title = "Features";
-    legend.kinds = {{kCreaseColor, "crease"},
-                    {kBorderColor, "border"},
+    legend.kinds = {{kCreaseColor, "ridge"},
+                    {kBorderColor, "boundary"},
                     {kRidgeVertexColor, "ridge vertex"},
                     {kCornerColor, "corner"}};
     return legend;

@@ -151,6 +151,20 @@ TEST(InfoCommand, TellsGenusBoundaryAndOrientation) {
   EXPECT_EQ(square["closed"], false);
 }
 
+TEST(InfoCommand, NamesWhatLiesUpsideDownAndGivesAFlatMeshNoOutside) {
+  const Workspace workspace;
+  // A square about its middle, which was thrown over a side.
+  const std::string square = "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const std::string faces = "\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+  const std::string sound = workspace.write("s.off", square + "0.5 0.5 0" + faces);
+  const std::string thrown = workspace.write("t.off", square + "1.5 0.5 0" + faces);
+  EXPECT_EQ(Json::parse(run_program("info --json " + sound).out)["inverted_triangles"], Json::array());
+  EXPECT_EQ(Json::parse(run_program("info --json " + thrown).out)["inverted_triangles"], Json::array({1}));
+  const std::string text = run_program("info " + thrown).out;
+  EXPECT_NE(text.find("inverted triangles     1: 1\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("facing"), std::string::npos) << text;
+}
+
 TEST(InfoCommand, TellsAMeshThatFacesInward) {
   const Workspace workspace;
   const std::string corners = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";

@@ -69,6 +69,17 @@ TEST_F(ScriptTest, TheMeshAsOpenedCanBeLookedAt) {
   EXPECT_EQ(play("open square.off\nexpect min_angle > 59\n").failures.size(), 1U);
 }
 
+TEST_F(ScriptTest, WhatTheEditorRefusesToDoEndsAScript) {
+  const std::string moved =
+      "motion sphere 300\nmotion field paper step 0.05 preset balanced\nmotion run 2\nmotion off\n";
+  const std::string told = complaint(moved + "run 5\n");
+  EXPECT_NE(told.find("line 5: run: Smoothing keeps to the mesh as opened"), std::string::npos) << told;
+  (void)folder.make_square();
+  const std::string runs = "open square.off\nset --tolerance 0\nrun 3\nseek 2\nset --boundary slide\nrun 2\n";
+  EXPECT_NE(complaint(runs + "remove 1\n").find("line 7: remove: Run 2 "), std::string::npos);
+  EXPECT_EQ(complaint(runs + "remove 2\nremove 1\nexpect iteration == 0\n"), "");
+}
+
 TEST_F(ScriptTest, MistakesAreRefusedWithTheirLine) {
   (void)folder.make_square();
   EXPECT_NE(complaint("open square.off\njump\n").find("line 2: \"jump\""), std::string::npos);
