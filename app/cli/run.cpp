@@ -60,6 +60,13 @@ void refuse_dashes(const std::vector<std::string>& arguments) {
   }
 }
 
+/// Where the command that was chosen is explained.
+std::string see_help(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+  return " (see isorelax" + name + " --help)";
+}
+
 /// Runs what the arguments ask for; every failure leaves as an exception.
 int parse_and_run(std::vector<std::string> arguments, Console& console) {
   const Commands commands = all_commands();
@@ -89,10 +96,13 @@ int parse_and_run(std::vector<std::string> arguments, Console& console) {
     console.result(chosen.empty() ? app.help() : chosen.front()->help("isorelax"));
   } catch (const CLI::CallForVersion& version) {
     console.result(std::string(version.what()) + "\n");
+  } catch (const CLI::ExtrasError&) {
+    // CLI11 tells them from the back.
+    std::string extras;
+    for (const std::string& word : app.remaining(true)) extras += (extras.empty() ? "" : " ") + word;
+    throw UsageError("not expected: " + extras + see_help(app));
   } catch (const CLI::ParseError& error) {
-    const auto chosen = app.get_subcommands();
-    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    throw UsageError(std::string(error.what()) + " (see isorelax" + name + " --help)");
+    throw UsageError(error.what() + see_help(app));
   }
   console.finish();
   return status;

@@ -374,9 +374,9 @@ void Editor::carry_out_request(const ui::Request& request) {
                  render::parse_camera(from->view, session_.current->positions(), pane(), fit_options())));
   } else if (std::holds_alternative<ui::FlyToSelection>(request)) {
     if (session_.current && session_.selected_triangle)
-      fly_to(look_at_triangle(camera_, session_, *session_.selected_triangle));
+      fly_to(beside_divider(look_at_triangle(camera_, session_, *session_.selected_triangle)));
     else if (session_.current && session_.selected_vertex)
-      fly_to(look_at_vertex(camera_, session_, *session_.selected_vertex));
+      fly_to(beside_divider(look_at_vertex(camera_, session_, *session_.selected_vertex)));
   } else if (const auto* at = std::get_if<ui::PickAt>(&request)) {
     pick(at->x, at->y);
   } else if (const auto* picture = std::get_if<ui::SavePicture>(&request)) {

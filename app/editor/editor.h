@@ -127,6 +127,7 @@ class Editor {
   void carry_out(const ui::Output& output);
   void carry_out_request(const ui::Request& request);
   void fly_to(const render::Camera& to);
+  [[nodiscard]] render::Camera beside_divider(const render::Camera& camera) const;
   [[nodiscard]] ui::ViewportImage viewport_image() const;
   void save_picture(const std::filesystem::path& path);
   void save_script(const std::filesystem::path& path);

@@ -159,6 +159,13 @@ bool Editor::sees_selection() {
   return std::ranges::find(t, *session_.selected_vertex) != t.end();
 }
 
+// In a split what is looked at stands in the middle of the part that shows it as it is now.
+render::Camera Editor::beside_divider(const render::Camera& camera) const {
+  const ui::Comparison& comparison = interface_.state().comparison;
+  if (comparison.mode != ui::CompareMode::split || !before_.drawn) return camera;
+  return render::pan(camera, 0.5 * comparison.divider * pane().width, 0, pane());
+}
+
 void Editor::fly_to(const render::Camera& to) {
   if (motion_ == Motion::instant)
     camera_ = to;

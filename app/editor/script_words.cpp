@@ -271,7 +271,9 @@ model::Command to_settings(Words words, const model::Session& session, const std
                           std::ranges::find(words, "--reference") != words.end();
   if (names_file) settings.reference_file = (folder / settings.reference_file).string();
   if (!unknown.empty())
-    throw UsageError("set: \"" + unknown.front() + "\": no setting of the editor, or no value for it");
+    throw UsageError("set: \"" + unknown.front() +
+                     "\": no setting of the editor, or no value for it; "
+                     "isorelax smooth --help tells what each takes");
   return model::SetSmoothing{settings, "Settings"};
 }
 

@@ -362,13 +362,16 @@ std::string describe_last_run(const model::Session& session) {
   const RunResult& run = *session.last_run;
   const model::Branch* branch = session.timeline.current();
   const bool polished = branch != nullptr && branch->kind == PartKind::polish;
+  // A step is no run that came to the end of its number.
+  const bool stepped =
+      run.stopped == StopReason::iterations && run.iterations == 1 && session.smoothing.iterations > 1;
   std::string text = !session.broken_by.empty()
                          ? "Stopped at iteration " + std::to_string(session.current->iteration) + ", where " +
                                session.broken_by
                      : run.stopped == StopReason::cancelled
                          ? "Paused after " + run_length(session)
                          : (polished ? "Polished in " : "Stopped after ") + run_length(session) + ": " +
-                               std::string(to_string(run.stopped));
+                               (stepped ? "one step was made" : std::string(to_string(run.stopped)));
   return session.last_step ? text + limits_sentence(*session.last_step) : text;
 }
 

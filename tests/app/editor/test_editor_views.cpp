@@ -262,6 +262,37 @@ TEST_F(EditorViews, NothingWaitsForABlinkToEnd) {
   EXPECT_TRUE(editor.is_restless()) << "a window goes on drawing it";
 }
 
+/// Bytes of memory that the program holds.
+std::size_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t whole = 0;
+  std::size_t pages = 0;
+  file >> whole >> pages;
+  return pages * 4096;
+}
+
+TEST_F(EditorViews, FramesThatNobodyLooksAtLeaveNothingBehind) {
+  open(folder.make_square());
+  frames(20);
+  const std::size_t before = resident();
+  frames(300);
+  EXPECT_LT(resident(), before + (std::size_t{150} << 20U)) << "it was 490 MB where nothing was flushed";
+}
+
+TEST_F(EditorViews, ASplitShowsWhatIsFlownToBesideItsDivider) {
+  open(folder.make_square());
+  run(3);
+  compare(ui::CompareMode::split);
+  press(ui::Key::n);
+  ASSERT_TRUE(editor.session().selected_triangle);
+  const auto& t = editor.session().document->mesh().triangles[*editor.session().selected_triangle];
+  const auto x = editor.session().current->positions();
+  const Vec3 middle = (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
+  const render::Camera& camera = editor.camera();
+  const double right = (middle - camera.target).dot(render::axes_of(camera).right) / camera.extent;
+  EXPECT_GT(right, 0.2) << "of the shorter side, from the middle";
+}
+
 TEST_F(EditorViews, PanesBeginUnderTheControlsOfTheComparison) {
   open(folder.make_square());
   run(3);

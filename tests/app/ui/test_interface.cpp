@@ -446,6 +446,15 @@ TEST_F(InterfaceTest, WhatAMethodWithoutAnEnergyHasNoUseForIsGrey) {
   EXPECT_TRUE(reaches("boundary/Fixed"));
 }
 
+TEST_F(InterfaceTest, AStepDoesNotEndBecauseOfTheAllowedNumber) {
+  open();
+  session.smoothing.iterations = 30;
+  session.smoothing.tolerance = 0;
+  click("step");
+  EXPECT_NE(describe_last_run(session).find("after 1 iteration: one step was made"), std::string::npos)
+      << describe_last_run(session);
+}
+
 TEST_F(InterfaceTest, EachOfTheThreeMethodsHasItsFigures) {
   open();
   session.smoothing.iterations = 3;
