@@ -193,6 +193,19 @@ TEST_F(DebuggerTest, ABreakpointIsTypedShownAndObeyed) {
   keep("breakpoint");
 }
 
+TEST_F(DebuggerTest, ThePictureOfAVertexTurnsWithTheCamera) {
+  open(folder.make_square());
+  editor.session().smoothing.iterations = 3;
+  press(ui::Key::space);
+  editor.act(model::SelectVertex{130});
+  press(ui::Key::i);
+  const render::Image before = part("ring");
+  press(ui::Key::left, {.control = true});
+  EXPECT_FALSE(part("ring") == before);
+  press(ui::Key::right, {.control = true});
+  EXPECT_TRUE(part("ring") == before);
+}
+
 TEST_F(DebuggerTest, RunsStandSideBySide) {
   open(folder.make_square());
   editor.session().smoothing.iterations = 4;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/render/render_fixtures.h"
 #include "app/temporary_mesh.h"
 #include "mesh/error.h"
 #include "view/measures.h"
 #include "view/picture.h"
+#include "view/scene.h"
 
 namespace isorelax::view {
 namespace {
@@ -109,6 +111,16 @@ TEST_F(PictureTest, a_mesh_that_faces_inward_shows_its_quality_like_any_other) {
   for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
   const View view = small_view();
   EXPECT_EQ(draw(view, {&turned}), draw(view, {&torus_}));
+}
+
+TEST_F(PictureTest, the_legend_names_the_red_of_what_lies_upside_down) {
+  const std::vector<double> values{10, 20};
+  View view;
+  const render::Coloring coloring = coloring_of(view, values);
+  EXPECT_FALSE(legend_of(view, coloring, values).shows_backs);
+  EXPECT_TRUE(legend_of(view, coloring, values, 1).shows_backs);
+  view.only_worse_than = 15;
+  EXPECT_FALSE(legend_of(view, coloring, values, 1).shows_backs) << "backs between what is left are no fault";
 }
 
 TEST_F(PictureTest, a_planar_mesh_looks_the_same_whichever_way_all_its_triangles_run) {
