@@ -166,7 +166,8 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
 /// Turns the triangles of a mesh that lie upside down by `untangle`, as far as the options let vertices move:
 /// the border stays whatever its rule, so do pinned vertices, flawed places, and the ridges and corners of
 /// sound surroundings. On a surface where fewer than one triangle in 200 lies upside down, only where that
-/// leaves it by less than a tenth of the longest edge there: others are sharp folds of its own. Does nothing
+/// leaves it by less than a tenth of the longest edge there and 0.02 of the diagonal: others are sharp folds
+/// of its own. Does nothing
 /// where options.untangle is off. Throws UsageError as make_problem.
 UntangleResult untangle_input(std::span<Vec3> positions, std::span<const Triangle> triangles,
                               const ProblemOptions& options);

@@ -7,6 +7,7 @@
 #include "smoothing/orientation_field.h"
 #include "smoothing/problem.h"
 #include "smoothing/untangle_flat.h"
+#include "surface/deviation.h"
 #include "surface/surface_distance.h"
 
 namespace isorelax {
@@ -15,9 +16,10 @@ namespace {
 /// On a surface where fewer than one in so many triangles lie upside down they may be its own sharp folds:
 /// turning those moves corners and leaves the surface, which costs more than it brings. Where a vertex only
 /// lies on the wrong side of others, the surface hardly changes: by less than this share of the longest edge
-/// there.
+/// there, and of the diagonal, beside which an edge may be very long.
 constexpr std::size_t kOnePerTriangles = 200;
 constexpr double kNearShare = 0.1;
+constexpr double kShareOfDiagonal = 0.02;
 
 /// What may move however upside down its triangles are: inside of a sound two-sided surface.
 std::vector<std::uint8_t> inner_vertices(const Topology& topology) {
@@ -73,9 +75,10 @@ void take_back_far(std::span<Vec3> x, std::span<const Vec3> input, std::span<con
       group.turns = group.turns || is_turned;
     }
   }
+  const double largest = kShareOfDiagonal * bounding_diagonal(input);
   std::erase_if(result.moved, [&](Index v) {
     const Group& group = groups[sets.find(v)];
-    const bool stays = group.turns && group.distance <= kNearShare * group.longest_edge;
+    const bool stays = group.turns && group.distance <= std::min(kNearShare * group.longest_edge, largest);
     if (!stays) x[v] = input[v];
     return !stays;
   });
