@@ -89,7 +89,8 @@ void declare_method(CLI::App& app, MethodSpec& spec) {
   app.add_option(
          "--solver", spec.solver,
          "Of near-isometry: auto (default: evening out, Newton steps, then L-BFGS, and one vertex after "
-         "another where many are at the limit), jacobi (the paper's step), newton or lbfgs")
+         "another where many are at the limit), jacobi (the paper's step), newton or lbfgs (both with one "
+         "vertex after another where steps of all are held up)")
       ->type_name("SOLVER");
   app.add_option("--weighting", spec.weighting,
                  "How neighbours count. laplacian: length (default, by the edge to them) or uniform; "

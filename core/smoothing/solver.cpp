@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "smoothing/even_out.h"
 #include "smoothing/one_by_one.h"
@@ -28,6 +29,17 @@ constexpr double kHeldUpGain = 1e-4;
 constexpr unsigned kStepsForAll = 16;
 constexpr double kNoGain = 1e-6;
 constexpr double kOneByOneGain = 1e-3;
+/// Newton steps alone gain less and less for long: by this share of the energy what is held has jammed them.
+constexpr double kJammedNewton = 2e-3;
+
+bool is_limited(const StepRecord& record, std::uint16_t by) {
+  return std::ranges::any_of(record.limits, [=](auto limits) { return (limits & by) != 0; });
+}
+
+/// The share of the energy that a step gained.
+double gain_of(const StepRecord& record) {
+  return (record.before.movable_energy - record.after.movable_energy) / record.before.movable_energy;
+}
 
 class AutomaticSmoother : public Smoother {
  public:
@@ -83,13 +95,8 @@ class AutomaticSmoother : public Smoother {
     pays_alone_ = true;
   }
 
-  [[nodiscard]] static bool is_limited(const StepRecord& record, std::uint16_t by) {
-    return std::ranges::any_of(record.limits, [=](auto limits) { return (limits & by) != 0; });
-  }
-
   void choose_next(const StepRecord& record) {
-    const double gain =
-        (record.before.movable_energy - record.after.movable_energy) / record.before.movable_energy;
+    const double gain = gain_of(record);
     if (phase_ == Phase::even) {
       if (gain < kEvenGain || gain > kEvenedOut) phase_ = Phase::newton;
     } else if (phase_ == Phase::newton) {
@@ -121,23 +128,34 @@ class AutomaticSmoother : public Smoother {
   bool pays_alone_ = true;      // the last steps of one vertex after another, if any, gained something
 };
 
-/// L-BFGS; where it finds no step, vertices find theirs one by one, and it starts anew from there.
-class PersistentLbfgs : public Smoother {
+/// Steps of one kind; where they find none, or gain nothing and something is held, vertices find theirs one
+/// by one, and it starts anew from there.
+class PersistentSmoother : public Smoother {
  public:
-  PersistentLbfgs(const SmoothingProblem& problem, const LbfgsOptions& options)
-      : lbfgs_(make_lbfgs(problem, options)), problem_(problem), detail_(options.detail) {}
+  PersistentSmoother(std::unique_ptr<Smoother> for_all, double no_gain, const SmoothingProblem& problem,
+                     RecordDetail detail)
+      : for_all_(std::move(for_all)), no_gain_(no_gain), problem_(problem), detail_(detail) {}
 
   void step(std::span<const Vec3> positions, StepRecord& record) override {
-    lbfgs_->step(positions, record);
-    if (record.moved > 0) return;
-    if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
-    one_by_one_->step(positions, record);
+    if (!is_jammed_) for_all_->step(positions, record);
+    if (is_jammed_ || record.moved == 0) {
+      if (!one_by_one_) one_by_one_ = make_one_by_one(problem_, detail_);
+      one_by_one_->step(positions, record);
+    }
+    const bool alone = record.kind == StepKind::one_by_one;
+    const double gain = gain_of(record);
+    is_jammed_ = alone ? gain >= kOneByOneGain
+                       : pays_alone_ && gain < no_gain_ && is_limited(record, kLimitSurface | kLimitFold);
+    if (alone) pays_alone_ = gain >= kHeldUpGain;
   }
 
  private:
-  std::unique_ptr<Smoother> lbfgs_, one_by_one_;
+  std::unique_ptr<Smoother> for_all_, one_by_one_;
+  double no_gain_;  // a smaller one is none
   const SmoothingProblem& problem_;
   RecordDetail detail_;
+  bool is_jammed_ = false;  // the next step is of one vertex after another
+  bool pays_alone_ = true;  // the last such step, if any, gained something
 };
 
 }  // namespace
@@ -151,10 +169,13 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver 
     case Solver::jacobi:
       return make_jacobi(problem, jacobi);
     case Solver::newton:
-      return make_newton(problem, newton);
+      return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
+        return std::make_unique<PersistentSmoother>(make_newton(numbered, newton), kJammedNewton, numbered,
+                                                    detail);
+      });
     case Solver::lbfgs:
       return make_near_in_memory(problem, [=](const SmoothingProblem& numbered) {
-        return std::make_unique<PersistentLbfgs>(numbered, lbfgs);
+        return std::make_unique<PersistentSmoother>(make_lbfgs(numbered, lbfgs), kNoGain, numbered, detail);
       });
     case Solver::automatic:
       break;

@@ -118,6 +118,22 @@ TEST(Minimisers, OfAFanAboutAShortEdgeAreReachedByEverySolver) {
   }
 }
 
+// Two inner vertices beside the border of a strip: the largest angle of all, which nothing may exceed, holds
+// up steps that all make at once.
+TEST(Minimisers, AreReachedThoughTheLargestAngleHoldsStepsUp) {
+  const std::vector<Vec3> x = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}, {1, 0, 0},        {2, 0, 0},
+                               {3, 0, 0}, {1, 1, 0}, {2, 1, 0}, {3, 1, 0}, {3.92, 0.977, 0}, {0.73, 0.41, 0}};
+  const std::vector<Triangle> triangles = {{11, 3, 0}, {10, 6, 1}, {2, 10, 1}, {10, 9, 6},
+                                           {9, 10, 2}, {11, 7, 3}, {4, 7, 11}, {6, 9, 5},
+                                           {9, 8, 5},  {8, 7, 5},  {7, 4, 5},  {4, 11, 0}};
+  const ProblemOptions options{.exponent = 16};
+  const double least = energy_of(minimised(x, triangles, options, Solver::automatic), triangles, options);
+  for (const Solver solver : {Solver::newton, Solver::lbfgs}) {
+    const double energy = energy_of(minimised(x, triangles, options, solver), triangles, options);
+    EXPECT_LT(energy, 1.001 * least) << static_cast<int>(solver);
+  }
+}
+
 TEST(Minimisers, OfASlidingVertexLieInTheMiddleOfItsEdge) {
   const std::vector<Vec3> x = {{-1, 0, 0}, {0.4, 0, 0}, {1, 0, 0}, {0, 1.5, 0}};
   const std::vector<Triangle> triangles = {{0, 1, 3}, {1, 2, 3}};
