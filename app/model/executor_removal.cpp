@@ -108,7 +108,7 @@ void Executor::apply(RunsChange& change, bool forward) {
     for (RunsChange::Run& run : change.runs) put_run(run);
   } else {
     add_dependent(change.runs);
-    for (auto run = change.runs.rbegin(); run != change.runs.rend(); ++run) take_run(*run);
+    std::for_each(change.runs.rbegin(), change.runs.rend(), [&](RunsChange::Run& run) { take_run(run); });
   }
   show_runs(forward ? change.after : change.before);
 }

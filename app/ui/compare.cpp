@@ -158,9 +158,9 @@ Rect beside_legend(const Ui& ui, ImDrawList& draw, Rect rect, const ViewportImag
 std::string name_of_run(const Ui& ui, unsigned branch, float width) {
   const model::Session& s = ui.session;
   const unsigned at = std::min(s.shared_iteration(), s.timeline.branches[branch].tip());
-  const std::string name = s.timeline.numbered_name(branch);
+  std::string name = s.timeline.numbered_name(branch);
   for (const char* word : {", iteration ", ", "}) {
-    const std::string whole = name + word + std::to_string(at);
+    std::string whole = name + word + std::to_string(at);
     if (text_width(*ui.fonts.text, whole) <= width - ui.px(44)) return whole;
   }
   return name;

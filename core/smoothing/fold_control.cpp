@@ -165,8 +165,8 @@ bool FoldControl::may_have_folds(Index triangle, double cosine, bool all_are_che
 }
 
 bool FoldControl::lets_go(const Trial& trial, Index triangle) const {
-  const auto& [a, b, c] = problem_.triangles[triangle];
-  const auto area = [&](std::span<const Vec3> x) { return area_vector(x[a], x[b], x[c]); };
+  const Triangle& t = problem_.triangles[triangle];
+  const auto area = [&](std::span<const Vec3> x) { return area_vector(x[t[0]], x[t[1]], x[t[2]]); };
   return turns_.lets_go(triangle, area(trial.from()), area(trial.to()));
 }
 

@@ -75,8 +75,8 @@ enum class Solver : std::uint8_t {
               ///< with steps of one vertex after another (make_one_by_one) where many are at the limit; a
               ///< free border slides before it leaves its outline (make_slide_first)
   jacobi,     ///< the paper's
-  newton,  ///< make_newton; where it finds no step or jams, one vertex after another
-  lbfgs,   ///< make_lbfgs, likewise
+  newton,     ///< make_newton; where it finds no step or jams, one vertex after another
+  lbfgs,      ///< make_lbfgs, likewise
 };
 /// The solver with its default options. Keeps a reference to the problem.
 std::unique_ptr<Smoother> make_smoother(const SmoothingProblem& problem, Solver solver,

@@ -190,7 +190,7 @@ class Classifier {
   /// it.
   [[nodiscard]] bool stands_out(Index v) const {
     Vec3 normal = Vec3::Zero(), sum = Vec3::Zero();
-    double lengths = 0, count = 0;
+    double lengths = 0;
     for (const Corner c : topology_.corners_of(v)) {
       const Triangle& t = triangles_[c / 3];
       const Vec3 a = x_[t[next(c % 3)]] - x_[v];
@@ -198,7 +198,6 @@ class Classifier {
       normal += a.cross(b);
       sum += a + b;
       lengths += a.norm() + b.norm();
-      count += 2;
     }
     return std::abs(sum.dot(normal.stableNormalized())) >= kLeastHeight * lengths;
   }
