@@ -38,10 +38,6 @@ constexpr std::array kEditorWords{
     ScriptWord{"expect PREDICATE", "of the shown iteration; what does not hold is told, with exit status 1"},
 };
 
-constexpr std::array<std::string_view, 5> kTabs{"quality", "inspect", "debug", "runs", "settings"};
-constexpr std::array<std::string_view, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
-constexpr std::array<std::string_view, 4> kPartners{"original", "remembered", "file", "beside"};
-
 ui::KeyChanged key_of(const std::string& text) {
   for (const ui::Shortcut& shortcut : ui::shortcuts())
     if (shortcut.keys == text) return {shortcut.key, true, shortcut.modifiers};
@@ -211,12 +207,12 @@ class Player {
   void frame_mesh(Words /*words*/) { editor_.ask(ui::FrameView{}); }
   void fly(Words /*words*/) { editor_.ask(ui::FlyToSelection{}); }
   void tab(Words words) {
-    editor_.interface().state().tab = static_cast<ui::SideTab>(index_of(kTabs, words[1]));
+    editor_.interface().state().tab = static_cast<ui::SideTab>(index_of(kTabWords, words[1]));
   }
   void show(Words words) {
     ui::Comparison& comparison = editor_.interface().state().comparison;
-    comparison.mode = static_cast<ui::CompareMode>(index_of(kModes, words[1]));
-    if (words.size() > 2) comparison.with = static_cast<ui::CompareWith>(index_of(kPartners, words[2]));
+    comparison.mode = static_cast<ui::CompareMode>(index_of(kModeWords, words[1]));
+    if (words.size() > 2) comparison.with = static_cast<ui::CompareWith>(index_of(kPartnerWords, words[2]));
   }
 
   void click(Words words) {

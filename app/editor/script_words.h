@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,13 @@ namespace isorelax::editor {
 [[nodiscard]] std::optional<model::Command> parse_line(std::span<const std::string> words,
                                                        const model::Session& session,
                                                        const std::filesystem::path& folder);
+
+/// What scripts call the tabs (ui::SideTab) and how a comparison is shown and with what (ui::CompareMode,
+/// ui::CompareWith), in their order.
+inline constexpr std::array<std::string_view, 5> kTabWords{"quality", "inspect", "debug", "runs", "settings"};
+inline constexpr std::array<std::string_view, 6> kModeWords{"off",  "split", "blink",
+                                                            "side", "ghost", "change"};
+inline constexpr std::array<std::string_view, 4> kPartnerWords{"original", "remembered", "file", "beside"};
 
 struct ScriptWord {
   std::string_view usage, meaning;

@@ -1,6 +1,5 @@
 #include "editor/session_log.h"
 
-#include <array>
 #include <utility>
 
 #include "editor/script_words.h"
@@ -40,13 +39,13 @@ bool replaces(std::string_view line, std::string_view before) {
 }  // namespace
 
 SessionLog::Looks SessionLog::looks_of(const render::Camera& camera, const ui::UiState& state) {
-  constexpr std::array<const char*, 5> kTabs{"quality", "inspect", "debug", "runs", "settings"};
-  constexpr std::array<const char*, 6> kModes{"off", "split", "blink", "side", "ghost", "change"};
-  constexpr std::array<const char*, 4> kPartners{"original", "remembered", "file", "beside"};
-  Looks looks{to_line(camera), std::string("tab ") + kTabs.at(static_cast<std::size_t>(state.tab)),
-              std::string("show ") + kModes.at(static_cast<std::size_t>(state.comparison.mode))};
+  const auto word = [](const auto& words, auto which) {
+    return std::string(words.at(static_cast<std::size_t>(which)));
+  };
+  Looks looks{to_line(camera), "tab " + word(kTabWords, state.tab),
+              "show " + word(kModeWords, state.comparison.mode)};
   if (state.comparison.mode != ui::CompareMode::off)
-    looks.comparison += std::string(" ") + kPartners.at(static_cast<std::size_t>(state.comparison.with));
+    looks.comparison += " " + word(kPartnerWords, state.comparison.with);
   return looks;
 }
 

@@ -9,8 +9,9 @@
 namespace isorelax {
 namespace {
 
-/// More groups than this are put together once more: factors of the system are not to outgrow the mesh.
-constexpr Index kMostGroups = 30000;
+/// More groups than this are put together once more: factors of the system are not to outgrow the mesh. Twice
+/// put together, groups say little: a sphere of 600,000 triangles took 139 steps with them, and 22 without.
+constexpr Index kMostGroups = 100000;
 /// Share of the mean diagonal that is added to it: a closed surface may turn about itself for nothing, and on
 /// a line there is no second unknown.
 constexpr double kCoarseShift = 1e-6;

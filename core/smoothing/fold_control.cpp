@@ -15,10 +15,7 @@ namespace {
 constexpr double kReach = 1.25;
 constexpr double kSafety = 0.6;
 constexpr unsigned kMaxRounds = 12;
-/// Moves that belong together are cut back alike where more than this share of the vertices would have to be,
-/// to so much, so many times.
-constexpr double kManyFolds = 0.3;
-constexpr double kShorter = 0.25;
+/// Times that moves that belong together are cut back alike.
 constexpr unsigned kRoundsForAll = 6;
 /// Rounds in which a vertex that leads away from the surface loses that part of its move instead of half of
 /// it, and rounds after which it loses all.

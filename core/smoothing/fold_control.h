@@ -17,6 +17,11 @@ namespace isorelax {
 /// 0.6 of the first positive root where that is below 1.25, else 1. Precondition: x has area.
 double fold_free_share(const std::array<Vec3, 3>& x, const std::array<Vec3, 3>& y);
 
+/// A direction for all vertices is far too long where more than this share of them would fold something: then
+/// all go so much less far.
+inline constexpr double kManyFolds = 0.3;
+inline constexpr double kShorter = 0.25;
+
 /// The paper's asynchronous step-size control, which also makes no triangle worse than the problem's worst
 /// angles and on curved surfaces lets none turn too far from its normal at the start of the run or back from
 /// its neighbours (TurnLimit): scales each vertex' move by the smallest share of its triangles and repeats

@@ -13,10 +13,8 @@ constexpr double kUseless = 0.02;
 /// Share of its proposed move that a vertex must have made, relative to the vertex that made most of its own,
 /// to be moved together with all others again.
 constexpr double kBlockedShare = 0.3;
-/// Where more than this share of the vertices would have folded something, the direction for all is far too
-/// long: the next ones reach so much less far, until they lead on again.
-constexpr double kManyFolds = 0.3;
-constexpr double kShorter = 0.25;
+/// Directions for all that come after one that was far too long (kManyFolds) reach less far, by kShorter, and
+/// so much farther again while they lead on.
 constexpr double kLonger = 2;
 /// Rounds against a rising energy after which what is remembered does not fit, either.
 constexpr unsigned kMostEnergyRounds = 2;

@@ -169,8 +169,8 @@ class Classifier {
     const std::vector<Index> ends = crease_neighbours(v);
     // Without a crease a peak is a corner; a saddle, whose angles are too many, is none.
     const double defect = r_.angle_defect_deg[v];
-    double corner = (ends.empty() ? defect : std::abs(defect)) - options_.corner_defect_deg;
-    if (ends.empty() && corner >= 0 && !stands_out(v)) corner = -1;
+    const bool is_noise = ends.empty() && defect >= options_.corner_defect_deg && !stands_out(v);
+    double corner = (is_noise ? 0 : ends.empty() ? defect : std::abs(defect)) - options_.corner_defect_deg;
     if (ends.size() == 2) {
       r_.turn_deg[v] =
           std::min(turn(v, {ends[0], ends[1]}), turn(v, {beyond(ends[0], v), beyond(ends[1], v)}));
