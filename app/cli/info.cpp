@@ -1,5 +1,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +14,7 @@
 #include "mesh/topology.h"
 #include "mesh/validation.h"
 #include "quality/inverted.h"
+#include "surface/crossings.h"
 #include "surface/deviation.h"
 
 namespace isorelax::cli {
@@ -55,6 +57,10 @@ std::string degenerate_text(const DegenerateFinding& finding) {
          (finding.reason == DegenerateReason::zero_area ? " (zero area)" : " (repeated vertex)");
 }
 
+std::string pair_text(const std::array<Index, 2>& pair) {
+  return std::to_string(pair[0]) + "-" + std::to_string(pair[1]);
+}
+
 std::string duplicate_text(const DuplicateFinding& finding) {
   return std::to_string(finding.triangle) + " (same as " + std::to_string(finding.first) + ")";
 }
@@ -70,13 +76,15 @@ struct Sides {
   bool inward = false;
   bool flat = false;  ///< in one plane: it has no outside
   std::vector<Index> inverted;
+  std::vector<std::array<Index, 2>> crossing;
 };
 
 Sides sides_of(const TriangleMesh& mesh) {
   const Topology topology(mesh.triangles, mesh.vertex_count());
   return {faces_inward(mesh.positions, mesh.triangles),
           plane_normal(mesh.positions, mesh.triangles, topology).has_value(),
-          inverted_triangles(mesh.positions, mesh.triangles, topology)};
+          inverted_triangles(mesh.positions, mesh.triangles, topology),
+          crossing_pairs({mesh.positions, mesh.triangles}, mesh.positions, mesh.triangles)};
 }
 
 std::string facing_text(const ValidationReport& report, bool inward) {
@@ -101,6 +109,7 @@ std::string report_text(const ValidationReport& report, const Sides& sides) {
   table.row("non-manifold vertices", listed<Index>(report.non_manifold_vertices, id_text));
   table.row("inconsistent edges", listed<EdgeFinding>(report.inconsistent_edges, edge_text));
   table.row("inverted triangles", listed<Index>(sides.inverted, id_text));
+  table.row("crossing triangles", listed<std::array<Index, 2>>(sides.crossing, pair_text));
   table.row("degenerate triangles", listed<DegenerateFinding>(report.degenerate, degenerate_text));
   table.row("duplicate triangles", listed<DuplicateFinding>(report.duplicates, duplicate_text));
   table.row("isolated vertices", listed<Index>(report.isolated_vertices, id_text));
@@ -127,6 +136,7 @@ class InfoCommand : public Command {
            "  non-manifold vertices on such an edge, or several fans of triangles meet\n"
            "  inconsistent edges    their two triangles run along them in the same direction\n"
            "  inverted triangles    upside down in a plane, or folded over on their surroundings\n"
+           "  crossing triangles    pairs: an edge of one passes through the inside of the other\n"
            "  degenerate triangles  a vertex twice, or area <= 1e-14 of the squared longest edge\n\n"
            "Example:\n  isorelax info bunny.off --json";
   }
@@ -142,6 +152,7 @@ class InfoCommand : public Command {
       Json object = to_json(report);
       object["faces_inward"] = sides.inward;
       object["inverted_triangles"] = sides.inverted;
+      object["crossing_triangles"] = sides.crossing;
       console.result(json_text(object));
     } else {
       console.result(report_text(report, sides));

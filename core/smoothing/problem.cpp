@@ -429,7 +429,8 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
   }
   if (!holds.still.empty()) {
     problem.notes.push_back(counted(holds.still.size(), "vertex is", "vertices are") +
-                            " held, to stay near the surface and keep it unfolded: " + list_ids(holds.still));
+                            " held, to stay near the surface and keep it from folding or crossing itself: " +
+                            list_ids(holds.still));
   }
 }
 

@@ -64,7 +64,7 @@ using ReferenceChoice = std::variant<MeanAreaReference, EdgeLengthReference, Ini
 /// The exponent where none is asked for.
 inline constexpr double kDefaultExponent = 2;
 
-/// What a run found it must hold, to stay near the surface and keep it unfolded.
+/// What a run found it must hold, to stay near the surface and keep it from folding or crossing itself.
 struct SurfaceHolds {
   std::vector<Index> still;  ///< vertices that stay where they are
   /// In no step does the surface go farther than this from where it is; length units.

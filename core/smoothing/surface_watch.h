@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,8 @@ class SurfaceWatch {
   struct Finding {
     Deviation deviation;
     std::vector<Index> far;  ///< vertices of triangles over the limit, or near it where one is over
-    /// Of triangles that lie upside down and did not at the start, and of those that face away from the
-    /// surface beside them, as it was, and did not.
+    /// Of triangles that lie upside down and did not at the start, of those that face away from the surface
+    /// beside them, as it was, and did not, and of those that cross others where none did.
     std::vector<Index> turned;
     std::size_t turned_triangles = 0;
 
@@ -40,6 +41,8 @@ class SurfaceWatch {
 
  private:
   [[nodiscard]] std::vector<Index> facing_away(std::span<const Vec3> positions) const;
+  [[nodiscard]] std::vector<Index> crossing(std::span<const Vec3> positions) const;
+  [[nodiscard]] bool crossed_beside(const std::array<Index, 2>& pair) const;
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
   [[nodiscard]] bool keeps_border(std::span<const Vec3> after, double rounding) const;
 

@@ -10,8 +10,6 @@ namespace isorelax {
 namespace {
 
 constexpr std::size_t kLeafSize = 2;
-/// Median splits halve the count: 2^32 triangles are 32 levels.
-constexpr std::size_t kMaxDepth = 40;
 constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
 
 /// The best point so far, as weights of the corners.

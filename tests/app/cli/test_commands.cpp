@@ -151,6 +151,16 @@ TEST(InfoCommand, TellsGenusBoundaryAndOrientation) {
   EXPECT_EQ(square["closed"], false);
 }
 
+TEST(InfoCommand, NamesTrianglesThatCross) {
+  const Workspace workspace;
+  const std::string mesh =
+      workspace.write("c.off", "OFF\n6 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 -1\n1 1 1\n9 9 0\n3 0 1 2\n3 3 4 5\n");
+  EXPECT_EQ(Json::parse(run_program("info --json " + mesh).out)["crossing_triangles"],
+            Json::array({Json::array({0, 1})}));
+  const std::string text = run_program("info " + mesh).out;
+  EXPECT_NE(text.find("crossing triangles     1: 0-1\n"), std::string::npos) << text;
+}
+
 TEST(InfoCommand, NamesWhatLiesUpsideDownAndGivesAFlatMeshNoOutside) {
   const Workspace workspace;
   // A square about its middle, which was thrown over a side.

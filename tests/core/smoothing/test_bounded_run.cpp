@@ -7,6 +7,7 @@
 
 #include "generate/generate.h"
 #include "quality/report.h"
+#include "surface/crossings.h"
 
 namespace isorelax {
 namespace {
@@ -214,6 +215,48 @@ TEST(BoundedRun, ATightLimitCostsLittleQuality) {
   // In which of several minima such a run ends is chance, and the worst triangle with it.
   EXPECT_GT(measure_quality(mesh).min_angle_deg, best.min_angle_deg - 20);
   EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, best.mean_min_angle_deg - 0.5);
+}
+
+TEST(BoundedRun, ThinShellsDoNotComeToCrossThemselves) {
+  TriangleMesh shell = generate(ShapeKind::sphere, {.seed = 5, .triangles = 1500, .jitter = 0.6});
+  const Index outside = shell.vertex_count();
+  for (Index v = 0; v < outside; ++v) shell.positions.push_back(0.997 * shell.positions[v]);
+  for (std::size_t t = 0, count = shell.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = shell.triangles[t];
+    shell.triangles.push_back({c + outside, b + outside, a + outside});
+  }
+  const auto crossings = [&](const TriangleMesh& mesh) {
+    return crossing_pairs({mesh.positions, mesh.triangles}, mesh.positions, mesh.triangles).size();
+  };
+  ASSERT_EQ(crossings(shell), 0U);
+  TriangleMesh mesh = shell;
+  // Wider than the shell is thick.
+  const BoundedResult result =
+      run_bounded(mesh.positions, mesh.triangles, {},
+                  [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
+                  {.iterations = 30}, {0.002});
+  EXPECT_EQ(crossings(mesh), 0U);
+  EXPECT_LE(result.deviation.max, 0.002);
+  EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, measure_quality(shell).mean_min_angle_deg + 1);
+}
+
+TEST(BoundedRun, FreeBordersDoNotComeToOverlap) {
+  TriangleMesh two = generate(ShapeKind::random_square, {.seed = 5, .triangles = 300});
+  const Index first = two.vertex_count();
+  for (Index v = 0; v < first; ++v) two.positions.emplace_back(two.positions[v] + Vec3(1.002, 0, 0));
+  for (std::size_t t = 0, count = two.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = two.triangles[t];
+    two.triangles.push_back({a + first, b + first, c + first});
+  }
+  const Topology topology(two.triangles, two.vertex_count());
+  for (const double limit : {0.001, 0.02}) {
+    TriangleMesh mesh = two;
+    run_bounded(mesh.positions, mesh.triangles, {.boundary = BoundaryRule::free},
+                [](const SmoothingProblem& problem) { return make_smoother(problem, Solver::automatic); },
+                {.iterations = 60}, {limit});
+    EXPECT_TRUE(crossing_borders(mesh.positions, mesh.triangles, topology, Vec3::UnitZ()).empty()) << limit;
+    EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, measure_quality(two).mean_min_angle_deg + 8);
+  }
 }
 
 TEST(BoundedRun, ProjectionKeepsVerticesOnTheSurfaceItCameFrom) {
