@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mesh/parallel.h"
-#include "smoothing/tangent.h"
+#include "smoothing/step_detail.h"
 
 namespace isorelax {
 namespace {
@@ -60,9 +60,9 @@ void GuardedSmoother::step(std::span<const Vec3> positions, StepRecord& record) 
     here_.mark(positions);
   }
   record.before = here_.totals();
-  if (detail_ != RecordDetail::vertices) record_triangles(record);
+  if (detail_ != RecordDetail::vertices) record_triangles(here_, record);
   record.before.gradient_norm = propose(positions, here_, record);
-  if (detail_ == RecordDetail::stages) record_stages(positions, record);
+  if (detail_ == RecordDetail::stages) record_stages(problem_, here_, positions, record);
   trial_.start(positions, record, leads_to_the_surface());
   if (guard_ != StepGuard::none) fold_.limit(trial_, record, go_together());
   record.after = there_.evaluate(trial_.to());
@@ -84,32 +84,6 @@ void GuardedSmoother::prepare(StepRecord& record) const {
   record.kind = kind_;
   record.fold_passes = record.energy_passes = 0;
   record.detail.reset();
-}
-
-void GuardedSmoother::record_triangles(StepRecord& record) const {
-  record.shape.assign(here_.shape().begin(), here_.shape().end());
-  record.area.assign(here_.area().begin(), here_.area().end());
-  record.energy.resize(problem_.triangle_count());
-  for (Index t = 0; t < problem_.triangle_count(); ++t) record.energy[t] = here_.energy(t);
-}
-
-/// What the proposal was made from; the rounds of control are noted as they are made.
-void GuardedSmoother::record_stages(std::span<const Vec3> positions, StepRecord& record) const {
-  const std::size_t n = problem_.vertex_count();
-  StepDetail& detail = record.detail.emplace();
-  detail.dimensions.resize(n);
-  detail.axis.resize(n);
-  detail.tangent.resize(n);
-  detail.proposed = record.displacement;
-  TangentSweep(problem_).run(here_, positions, [&](const TangentBatch& batch) {
-    for (unsigned i = 0; i < batch.count; ++i) {
-      const Index v = batch.vertices[i];
-      const Mobility mobility = problem_.mobility[v];
-      detail.dimensions[v] = static_cast<std::uint8_t>(mobility);
-      detail.axis[v] = mobility == Mobility::none ? Vec3(Vec3::Zero()) : batch.axes[i];
-      detail.tangent[v] = batch.gradients[i];
-    }
-  });
 }
 
 /// Accepts the step only if the energy does not rise. Ends: a total that rose has a triangle that got worse,

@@ -51,8 +51,6 @@ class GuardedSmoother : public Smoother {
 
  private:
   void prepare(StepRecord& record) const;
-  void record_triangles(StepRecord& record) const;
-  void record_stages(std::span<const Vec3> positions, StepRecord& record) const;
   void guard_energy(StepRecord& record);
   [[nodiscard]] double way_downhill(const StepRecord& record) const;
   [[nodiscard]] std::vector<Index> vertices_where_energy_rose() const;

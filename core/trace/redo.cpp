@@ -1,7 +1,7 @@
 #include "trace/redo.h"
 
 #include "smoothing/polish.h"
-#include "smoothing/tangent.h"
+#include "smoothing/step_detail.h"
 #include "trace/trace_parts.h"
 
 namespace isorelax {
@@ -19,25 +19,9 @@ class ExplainedPolish : public Smoother {
     polish_->step(positions, record);
     Objective here(problem_);
     here.evaluate(positions);
-    record.shape.assign(here.shape().begin(), here.shape().end());
-    record.area.assign(here.area().begin(), here.area().end());
-    record.energy.resize(problem_.triangle_count());
-    for (Index t = 0; t < problem_.triangle_count(); ++t) record.energy[t] = here.energy(t);
-    const std::size_t n = problem_.vertex_count();
-    StepDetail& detail = record.detail.emplace();
-    detail.dimensions.resize(n);
-    detail.axis.assign(n, Vec3::Zero());
-    detail.tangent.resize(n);
-    detail.proposed = record.displacement;
-    TangentSweep(problem_).run(here, positions, [&](const TangentBatch& batch) {
-      for (unsigned i = 0; i < batch.count; ++i) {
-        const Index v = batch.vertices[i];
-        record.gradient[v] = batch.sums[i].gradient;
-        detail.dimensions[v] = static_cast<std::uint8_t>(problem_.mobility[v]);
-        if (problem_.mobility[v] != Mobility::none) detail.axis[v] = batch.axes[i];
-        detail.tangent[v] = batch.gradients[i];
-      }
-    });
+    for (Index v = 0; v < problem_.vertex_count(); ++v) record.gradient[v] = here.gather(v).gradient;
+    record_triangles(here, record);
+    record_stages(problem_, here, positions, record);
   }
 
  private:
