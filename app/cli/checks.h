@@ -1,7 +1,6 @@
 #pragma once
 
 #include <CLI/Validators.hpp>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "io/mesh_file.h"
+#include "io/text_out.h"
 
 namespace isorelax::cli {
 
@@ -45,13 +45,8 @@ inline CLI::Validator number_between(double low, double high) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool sound = error == std::errc{} && end == text.data() + text.size();
     if (sound && value >= low && value <= high) return std::string();
-    const auto bound = [](double number) {
-      std::array<char, 32> digits{};
-      const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-      return std::string(digits.data(), written.ptr);
-    };
-    return text + (std::isinf(high) ? " is not a number of " + bound(low) + " or more"
-                                    : " is not a number from " + bound(low) + " to " + bound(high));
+    return text + (std::isinf(high) ? " is not a number of " + digits_of(low) + " or more"
+                                    : " is not a number from " + digits_of(low) + " to " + digits_of(high));
   };
   return CLI::Validator(check, "");
 }

@@ -1,10 +1,10 @@
 #include "editor/session_view.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 
+#include "io/text_out.h"
 #include "view/scene.h"
 
 namespace isorelax::editor {
@@ -27,12 +27,6 @@ view::ColorBy color_of(model::Coloring coloring, const view::View& base) {
   return base.color == view::ColorBy::classes ? base.color : view::ColorBy::none;
 }
 
-std::string exact_text(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 /// Edge of the equilateral triangle that has the mean area of the mesh as opened: what the session measures
 /// energies against while the mesh changes.
 std::string mean_area_reference(const model::Session& session) {
@@ -42,7 +36,7 @@ std::string mean_area_reference(const model::Session& session) {
   double area = 0;
   for (const Triangle& t : triangles) area += 0.5 * area_vector(x[t[0]], x[t[1]], x[t[2]]).norm();
   const double mean = area / static_cast<double>(triangles.size());
-  return "equilateral:" + exact_text(std::sqrt(4 * mean / std::sqrt(3.0)));
+  return "equilateral:" + digits_of(std::sqrt(4 * mean / std::sqrt(3.0)));
 }
 
 /// Triangles of a moving surface are measured against its own reference.
@@ -63,7 +57,7 @@ view::EnergyTerms energy_of(const model::Session& session) {
       terms.reference = mean_area_reference(session);
       break;
     case model::ReferenceKind::edge_length:
-      terms.reference = "equilateral:" + exact_text(settings.edge_length);
+      terms.reference = "equilateral:" + digits_of(settings.edge_length);
       break;
     case model::ReferenceKind::initial:
       terms.reference = session.document->path.string();

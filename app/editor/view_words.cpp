@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "editor/word_values.h"
+#include "io/text_out.h"
 #include "mesh/error.h"
 #include "render/picture_size.h"
 
@@ -34,7 +35,7 @@ std::string range_word(const model::ViewSettings& view) {
   if (view.range_mode != model::RangeMode::typed)
     return view.range_mode == model::RangeMode::current ? "current" : "run";
   const model::ValueRange& range = view.typed.at(static_cast<std::size_t>(view.coloring));
-  return real_text(range.low) + ":" + real_text(range.high);
+  return digits_of(range.low) + ":" + digits_of(range.high);
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ std::string to_line(const render::Camera& camera) {
   std::string line = "camera";
   for (const double x : {camera.target.x(), camera.target.y(), camera.target.z(), camera.azimuth_deg,
                          camera.elevation_deg, camera.extent})
-    line += " " + real_text(x);
+    line += " " + digits_of(x);
   line += camera.up == render::UpAxis::y ? " y" : " z";
   return line + (camera.projection == render::Projection::perspective ? " perspective" : " orthographic");
 }

@@ -21,13 +21,6 @@ template <typename Number>
   return value;
 }
 
-/// With all its digits.
-[[nodiscard]] inline std::string real_text(double value) {
-  std::array<char, 40> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 /// Throws UsageError where there are fewer or more words behind the first.
 inline void require(std::span<const std::string> words, std::size_t least, std::size_t most) {
   if (words.size() < least + 1) throw UsageError(words.front() + ": something is missing");

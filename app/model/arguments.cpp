@@ -8,24 +8,19 @@
 #include <map>
 
 #include "io/mesh_file.h"
+#include "io/text_out.h"
 #include "mesh/error.h"
 #include "model/command.h"
 
 namespace isorelax::model {
 namespace {
 
-std::string number_word(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string reference_word(const SmoothingSettings& s) {
   switch (s.reference) {
     case ReferenceKind::mean_area:
       return "equilateral";
     case ReferenceKind::edge_length:
-      return "equilateral:" + number_word(s.edge_length);
+      return "equilateral:" + digits_of(s.edge_length);
     case ReferenceKind::initial:
       return "initial";
     case ReferenceKind::file:
@@ -45,7 +40,7 @@ std::string features_word(const SmoothingSettings& s) {
     case FeatureRule::angle:
       break;
   }
-  return number_word(s.feature_deg);
+  return digits_of(s.feature_deg);
 }
 
 std::string pin_word(const std::vector<Index>& pinned) {
@@ -65,7 +60,7 @@ std::string reach_word(const SmoothingSettings& s) {
     case Reach::typed:
       break;
   }
-  return number_word(s.max_deviation);
+  return digits_of(s.max_deviation);
 }
 
 template <typename T>
@@ -194,8 +189,8 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   };
   if (s.method == Method::near_isometry) {
     add("--solver", std::string(solver_option(s.solver)));
-    add("--exponent", number_word(s.exponent));
-    add("--mu", number_word(s.mu_a));
+    add("--exponent", digits_of(s.exponent));
+    add("--mu", digits_of(s.mu_a));
     add("--reference", reference_word(s));
   } else {
     add("--method", std::string(method_option(s.method)));
@@ -204,7 +199,7 @@ std::vector<std::string> to_words(const SmoothingSettings& s) {
   add("--features", features_word(s));
   if (!s.pinned.empty()) add("--pin", pin_word(s.pinned));
   add("--iterations", std::to_string(s.iterations));
-  add("--tolerance", number_word(s.tolerance));
+  add("--tolerance", digits_of(s.tolerance));
   if (s.polish != Polish::none) add("--polish", std::string(polish_option(s.polish)));
   add("--max-deviation", reach_word(s));
   return words;

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/text_out.h"
 #include "motion/expression_field.h"
 #include "motion/sampled_field.h"
 
@@ -70,14 +71,8 @@ void read_expressions(std::string_view rest, std::string_view whole, std::array<
   }
 }
 
-std::string shortest_text(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
 std::string vector_text(const Vec3& v) {
-  return shortest_text(v[0]) + "," + shortest_text(v[1]) + "," + shortest_text(v[2]);
+  return digits_of(v[0]) + "," + digits_of(v[1]) + "," + digits_of(v[2]);
 }
 
 std::string rigid_text(const RigidMotion& rigid) {
@@ -136,13 +131,13 @@ FieldSpec parse_field(std::string_view text, const FieldSpec& others) {
 std::string to_text(const FieldSpec& spec) {
   switch (spec.kind) {
     case FieldKind::paper:
-      return "paper:" + shortest_text(spec.period);
+      return "paper:" + digits_of(spec.period);
     case FieldKind::enright:
-      return "enright:" + shortest_text(spec.period);
+      return "enright:" + digits_of(spec.period);
     case FieldKind::rigid:
       return rigid_text(spec.rigid);
     case FieldKind::shear:
-      return "shear:" + shortest_text(spec.rate);
+      return "shear:" + digits_of(spec.rate);
     case FieldKind::normal:
       return "normal:" + spec.speed;
     case FieldKind::expressions:
