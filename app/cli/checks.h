@@ -1,13 +1,13 @@
 #pragma once
 
 #include <CLI/Validators.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 
 #include "io/mesh_file.h"
+#include "io/text_in.h"
 #include "io/text_out.h"
 
 namespace isorelax::cli {
@@ -18,9 +18,7 @@ inline CLI::Validator whole_number(std::uint64_t least,
                                    std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
   const auto check = [least, most](const std::string& text) {
     std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool sound = error == std::errc{} && end == text.data() + text.size();
-    if (sound && value >= least && value <= most) return std::string();
+    if (read_number(text, value) && value >= least && value <= most) return std::string();
     return text +
            (most == std::numeric_limits<std::uint64_t>::max()
                 ? " is not a whole number of " + std::to_string(least) + " or more"
@@ -42,9 +40,7 @@ inline CLI::Validator mesh_format() {
 inline CLI::Validator number_between(double low, double high) {
   const auto check = [low, high](const std::string& text) {
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool sound = error == std::errc{} && end == text.data() + text.size();
-    if (sound && value >= low && value <= high) return std::string();
+    if (read_number(text, value) && value >= low && value <= high) return std::string();
     return text + (std::isinf(high) ? " is not a number of " + digits_of(low) + " or more"
                                     : " is not a number from " + digits_of(low) + " to " + digits_of(high));
   };

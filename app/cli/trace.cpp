@@ -1,6 +1,5 @@
 #include <CLI/App.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +12,7 @@
 #include "cli/table.h"
 #include "io/atomic_file.h"
 #include "io/mesh_file.h"
-#include "io/text_out.h"
+#include "io/text_in.h"
 #include "mesh/error.h"
 #include "trace/predicate.h"
 #include "trace/recorder.h"
@@ -60,8 +59,7 @@ std::vector<std::size_t> parse_iterations(const std::string& text, std::size_t l
   std::vector<std::size_t> chosen;
   const auto number = [&](std::string_view word) {
     std::size_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size())
+    if (!read_number(word, value))
       throw UsageError("--iterations " + text +
                        ": expected all, every:K, or numbers and last between commas");
     return value;

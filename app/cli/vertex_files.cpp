@@ -1,10 +1,10 @@
 #include "cli/vertex_files.h"
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 
 #include "cli/console.h"
+#include "io/text_in.h"
 #include "mesh/error.h"
 #include "smoothing/pins.h"
 
@@ -40,8 +40,7 @@ std::vector<Index> read_pins(const std::string& path, std::size_t vertex_count) 
   std::vector<Index> pins;
   for_each_word(path, [&](const std::string& word, unsigned row) {
     Index id = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), id);
-    if (error != std::errc() || stop != word.data() + word.size())
+    if (!read_number(word, id))
       throw InputError(path, place_of(row), "expected vertex numbers, found \"" + word + "\"");
     if (id >= vertex_count) {
       throw InputError(path, place_of(row),
@@ -86,8 +85,7 @@ std::vector<Index> listed_vertices(const std::string& pin, std::size_t vertex_co
   for (std::size_t at = kVertices.size(); at <= pin.size();) {
     const std::size_t comma = std::min(pin.find(',', at), pin.size());
     Index id = 0;
-    const auto [end, error] = std::from_chars(pin.data() + at, pin.data() + comma, id);
-    if (error != std::errc() || end != pin.data() + comma || id >= vertex_count)
+    if (!read_number(std::string_view(pin).substr(at, comma - at), id) || id >= vertex_count)
       throw UsageError("--pin " + pin + ": expected numbers below " + std::to_string(vertex_count) +
                        " with commas between, as in vertices:12,40");
     listed.push_back(id);
@@ -100,9 +98,7 @@ std::vector<Index> listed_vertices(const std::string& pin, std::size_t vertex_co
 
 std::optional<double> parse_number(std::string_view text) {
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  return read_number(text, value) ? std::optional(value) : std::nullopt;
 }
 
 std::vector<double> read_size_field(const std::string& path, std::size_t vertex_count) {

@@ -1,9 +1,9 @@
 #include "editor/motion_words.h"
 
-#include <charconv>
 #include <vector>
 
 #include "editor/script_words.h"
+#include "io/text_in.h"
 #include "mesh/error.h"
 
 namespace isorelax::editor {
@@ -16,8 +16,7 @@ model::Move parse_move(std::span<const std::string> words) {
   model::Move move;
   if (words.size() < 3) return move;
   const std::string& word = words[2];
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), move.steps);
-  if (error != std::errc() || end != word.data() + word.size() || move.steps == 0)
+  if (!read_number(word, move.steps) || move.steps == 0)
     throw UsageError("motion run: expected a number of steps, found \"" + word + "\"");
   return move;
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "io/text_in.h"
 #include "mesh/error.h"
 
 namespace isorelax::editor {
@@ -15,9 +15,7 @@ namespace isorelax::editor {
 template <typename Number>
 [[nodiscard]] Number to_number(const std::string& word) {
   Number value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    throw UsageError("expected a number, found \"" + word + "\"");
+  if (!read_number(word, value)) throw UsageError("expected a number, found \"" + word + "\"");
   return value;
 }
 

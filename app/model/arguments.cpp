@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 #include <limits>
 #include <map>
 
 #include "io/mesh_file.h"
+#include "io/text_in.h"
 #include "io/text_out.h"
 #include "mesh/error.h"
 #include "model/command.h"
@@ -61,12 +61,6 @@ std::string reach_word(const SmoothingSettings& s) {
       break;
   }
   return digits_of(s.max_deviation);
-}
-
-template <typename T>
-bool read_number(std::string_view word, T& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
 }
 
 bool read_number_between(double low, double high, std::string_view word, double& value) {

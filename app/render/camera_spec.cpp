@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "io/text_in.h"
 #include "mesh/error.h"
 #include "render/camera.h"
 
@@ -14,8 +14,7 @@ constexpr std::string_view kViews[] = {"front", "back", "left", "right", "top", 
 
 std::optional<double> parse_number(std::string_view text) {
   double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
+  if (!read_number(text, value) || !std::isfinite(value)) return {};
   return value;
 }
 

@@ -1,9 +1,9 @@
 #include "render/picture_size.h"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 
+#include "io/text_in.h"
 #include "mesh/error.h"
 
 namespace isorelax::render {
@@ -12,19 +12,13 @@ namespace {
 /// What OpenGL implementations, OSMesa among them, can still draw into.
 constexpr int kLargestSide = 16384;
 
-template <class Number>
-bool parse_number(std::string_view text, Number& value) {
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return status == std::errc() && end == text.data() + text.size();
-}
-
 }  // namespace
 
 PictureSize parse_size(std::string_view text) {
   PictureSize size;
   const std::size_t by = text.find('x');
-  if (by == std::string_view::npos || !parse_number(text.substr(0, by), size.width) ||
-      !parse_number(text.substr(by + 1), size.height) || size.width < 1 || size.height < 1)
+  if (by == std::string_view::npos || !read_number(text.substr(0, by), size.width) ||
+      !read_number(text.substr(by + 1), size.height) || size.width < 1 || size.height < 1)
     throw UsageError("picture size '" + std::string(text) +
                      "' is not WIDTHxHEIGHT in pixels, such as 1280x720");
   if (size.width > kLargestSide || size.height > kLargestSide)
@@ -36,8 +30,8 @@ PictureSize parse_size(std::string_view text) {
 Range parse_range(std::string_view text) {
   Range range;
   const std::size_t colon = text.find(':');
-  if (colon == std::string_view::npos || !parse_number(text.substr(0, colon), range.low) ||
-      !parse_number(text.substr(colon + 1), range.high) || !std::isfinite(range.low) ||
+  if (colon == std::string_view::npos || !read_number(text.substr(0, colon), range.low) ||
+      !read_number(text.substr(colon + 1), range.high) || !std::isfinite(range.low) ||
       !std::isfinite(range.high) || !(range.low < range.high))
     throw UsageError("range '" + std::string(text) + "' is not LO:HI with LO below HI, such as 0:60");
   return range;

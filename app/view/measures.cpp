@@ -1,12 +1,12 @@
 #include "view/measures.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "energy/reference.h"
 #include "energy/triangle_energy.h"
 #include "io/mesh_file.h"
+#include "io/text_in.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "quality/triangle_metrics.h"
@@ -16,8 +16,7 @@ namespace {
 
 double parse_edge(const std::string& text) {
   double edge = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), edge);
-  if (status != std::errc() || end != text.data() + text.size())
+  if (!read_number(text, edge))
     throw UsageError("energy reference 'equilateral:" + text + "' has no edge length");
   return edge;
 }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <utility>
 
 #include "io/byte_order.h"
 #include "io/scalar_bytes.h"
+#include "io/text_in.h"
 #include "io/text_scanner.h"
 #include "io/vtk_names.h"
 
@@ -36,8 +36,7 @@ void append_wide(VtkArray& array, Integer value) {
 template <class Integer>
 bool append_wide_word(VtkArray& array, std::string_view word) {
   Integer value = 0;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (result.ec != std::errc{} || result.ptr != word.data() + word.size()) {
+  if (!read_number(word, value)) {
     return false;
   }
   append_wide(array, value);

@@ -1,21 +1,15 @@
 #include "motion/motion_choices.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "generate/generate.h"
 #include "io/mesh_file.h"
+#include "io/text_in.h"
 #include "io/text_out.h"
 
 namespace isorelax {
 namespace {
-
-template <typename T>
-bool read_whole(std::string_view word, T& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
 
 [[noreturn]] void refuse(std::string_view option, const std::string& word, const std::string& expected) {
   throw UsageError("--" + std::string(option) + " " + word + ": expected " + expected);
@@ -23,21 +17,21 @@ bool read_whole(std::string_view word, T& value) {
 
 double positive(std::string_view option, const std::string& word) {
   double value = 0;
-  if (!read_whole(word, value) || !(value > 0) || !std::isfinite(value))
+  if (!read_number(word, value) || !(value > 0) || !std::isfinite(value))
     refuse(option, word, "a number over 0");
   return value;
 }
 
 double between(std::string_view option, const std::string& word, double low, double high) {
   double value = 0;
-  if (!read_whole(word, value) || !(value >= low && value <= high))
+  if (!read_number(word, value) || !(value >= low && value <= high))
     refuse(option, word, "a number from " + digits_of(low) + " to " + digits_of(high));
   return value;
 }
 
 unsigned count_from(std::string_view option, const std::string& word, unsigned least) {
   unsigned value = 0;
-  if (!read_whole(word, value) || value < least)
+  if (!read_number(word, value) || value < least)
     refuse(option, word, "a whole number of " + std::to_string(least) + " or more");
   return value;
 }
@@ -167,16 +161,16 @@ SphereStart parse_sphere(const std::string& text) {
   SphereStart sphere;
   const std::vector<std::string_view> parts = parts_of(text, ':');
   double count = 0;
-  check(read_whole(parts[0], count) && count >= 4 && count <= 1e8 && count == std::floor(count) &&
+  check(read_number(parts[0], count) && count >= 4 && count <= 1e8 && count == std::floor(count) &&
         parts.size() <= 3);
   sphere.vertices = static_cast<std::size_t>(count);
   if (parts.size() > 1)
-    check(read_whole(parts[1], sphere.radius) && sphere.radius > 0 && std::isfinite(sphere.radius));
+    check(read_number(parts[1], sphere.radius) && sphere.radius > 0 && std::isfinite(sphere.radius));
   if (parts.size() > 2) {
     const std::vector<std::string_view> numbers = parts_of(parts[2], ',');
     check(numbers.size() == 3);
     for (Eigen::Index i = 0; i < 3; ++i)
-      check(read_whole(numbers[static_cast<std::size_t>(i)], sphere.centre[i]) &&
+      check(read_number(numbers[static_cast<std::size_t>(i)], sphere.centre[i]) &&
             std::isfinite(sphere.centre[i]));
   }
   return sphere;
@@ -238,7 +232,7 @@ ReferenceChoice read_reference(const std::string& word, std::vector<std::string>
   constexpr std::string_view kEdge = "equilateral:";
   if (word.starts_with(kEdge)) {
     double edge = 0;
-    if (!read_whole(std::string_view(word).substr(kEdge.size()), edge) || !(edge > 0))
+    if (!read_number(std::string_view(word).substr(kEdge.size()), edge) || !(edge > 0))
       refuse("reference", word, "a positive edge length after the colon");
     return EdgeLengthReference{edge};
   }

@@ -1,8 +1,8 @@
 #include "motion/motion_spec.h"
 
-#include <charconv>
 #include <cmath>
 
+#include "io/text_in.h"
 #include "io/text_out.h"
 #include "motion/expression_field.h"
 #include "motion/sampled_field.h"
@@ -12,8 +12,7 @@ namespace {
 
 std::optional<double> plain_number(std::string_view text) {
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (!read_number(text, value) || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
