@@ -8,6 +8,7 @@
 
 #include "cli/console.h"
 #include "io/atomic_file.h"
+#include "io/text_out.h"
 #include "mesh/error.h"
 #include "view/picture.h"
 
@@ -37,9 +38,7 @@ view::View view_from(const std::string& text) {
 }
 
 std::string numbered(std::size_t number) {
-  std::string digits = std::to_string(number);
-  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
-  return "frame_" + digits + ".png";
+  return "frame_" + zero_padded(number, 4) + ".png";
 }
 
 void make_folder(const std::string& folder) {

@@ -17,8 +17,7 @@ namespace {
 constexpr std::string_view kStateSign = "isorelax advect state:";
 
 std::string state_name(std::size_t step) {
-  const std::string digits = std::to_string(step);
-  return "state_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+  return "state_" + zero_padded(step, 6);
 }
 
 /// Whole, and small enough for numbers to be told apart.

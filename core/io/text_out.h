@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string>
@@ -44,6 +45,13 @@ inline void append_integer(std::string& out, std::size_t value) {
   std::array<char, 24> digits;
   const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   out.append(digits.data(), result.ptr);
+}
+
+/// A whole number with zeros in front, at least `width` digits: names of files that sort as their numbers.
+inline std::string zero_padded(std::size_t number, std::size_t width) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, width - std::min(width, digits.size()), '0');
+  return digits;
 }
 
 /// Appends each text as a line after `sign`; line breaks inside a text begin another such line.

@@ -29,9 +29,7 @@ void append(std::string& text, std::size_t value) {
 }
 
 std::string numbered(std::size_t iteration, const std::string& extension) {
-  std::string digits = std::to_string(iteration);
-  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
-  return "iteration_" + digits + extension;
+  return "iteration_" + zero_padded(iteration, 5) + extension;
 }
 
 void make_folder(const std::filesystem::path& folder) {
