@@ -77,10 +77,8 @@ std::string vtp_text(const TriangleMesh& mesh) {
          std::to_string(mesh.triangles.size()) + "\">\n<Points>\n";
   out += "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
   for (const Vec3& x : mesh.positions) {
-    for (int k = 0; k < 3; ++k) {
-      append_number(out, x[k]);
-      out += k < 2 ? ' ' : '\n';
-    }
+    append_point(out, x);
+    out += '\n';
   }
   out +=
       "</DataArray>\n</Points>\n<Polys>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";

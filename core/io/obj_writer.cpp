@@ -86,11 +86,8 @@ void ObjWriter::write_positions() {
   const Attribute* weight =
       color ? nullptr : take_attribute(mesh_.attributes.vertex, "weight", 1, 1, written_);
   for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-    out_ += 'v';
-    for (unsigned k = 0; k < 3; ++k) {
-      out_ += ' ';
-      append_number(out_, mesh_.positions[v][k]);
-    }
+    out_ += "v ";
+    append_point(out_, mesh_.positions[v]);
     if (weight != nullptr) {
       out_ += ' ';
       append_number(out_, weight->values[v]);

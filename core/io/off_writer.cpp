@@ -48,11 +48,7 @@ EncodedMesh encode_off(const TriangleMesh& mesh) {
   append_integer(out, mesh.triangles.size());
   out += " 0\n";
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    append_number(out, mesh.positions[v].x());
-    out += ' ';
-    append_number(out, mesh.positions[v].y());
-    out += ' ';
-    append_number(out, mesh.positions[v].z());
+    append_point(out, mesh.positions[v]);
     if (normal) {
       append_row(out, *normal, v);
     }

@@ -89,19 +89,12 @@ EncodedMesh encode_text(const TriangleMesh& mesh) {
       current = name_of(t);
       out += "solid " + current + "\n";
     }
-    const Vec3 normal = unit_normal(mesh, mesh.triangles[t]);
-    out += "facet normal";
-    for (unsigned k = 0; k < 3; ++k) {
-      out += ' ';
-      append_number(out, normal[k]);
-    }
+    out += "facet normal ";
+    append_point(out, unit_normal(mesh, mesh.triangles[t]));
     out += "\n outer loop\n";
     for (const Index vertex : mesh.triangles[t]) {
-      out += "  vertex";
-      for (unsigned k = 0; k < 3; ++k) {
-        out += ' ';
-        append_number(out, mesh.positions[vertex][k]);
-      }
+      out += "  vertex ";
+      append_point(out, mesh.positions[vertex]);
       out += '\n';
     }
     out += " endloop\nendfacet\n";

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/triangle_mesh.h"
+
 namespace isorelax {
 
 /// Appends the shortest decimal digits that read back as the same double.
@@ -21,6 +23,15 @@ inline std::string digits_of(double value) {
   std::string text;
   append_number(text, value);
   return text;
+}
+
+/// The three coordinates of a point with blanks between.
+inline void append_point(std::string& out, const Vec3& point) {
+  append_number(out, point.x());
+  out += ' ';
+  append_number(out, point.y());
+  out += ' ';
+  append_number(out, point.z());
 }
 
 /// The same as append_number, with ".0" after a whole number: for formats where "1" and "1.0" mean different

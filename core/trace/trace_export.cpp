@@ -85,11 +85,8 @@ class VtkPolyData {
     text_ += '\n';
   }
   void vector(const Vec3& p) {
-    append_number(text_, p.x());
-    text_ += ' ';
-    append_number(text_, p.y());
-    text_ += ' ';
-    item(p.z());
+    append_point(text_, p);
+    text_ += '\n';
   }
   void add_metric(std::span<const Vec3> x, const char* name, double TriangleMetrics::*member) {
     array("Float64", name, 1);
