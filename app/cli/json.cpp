@@ -112,7 +112,7 @@ Json to_json(const ValidationReport& report) {
 Json triangle_to_json(const TriangleMesh& mesh, Index triangle) {
   const auto [a, b, c] = mesh.triangles[triangle];
   const Vec3 middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
-  const TriangleMetrics m = measure_triangle(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+  const TriangleMetrics m = measure_triangle(mesh.positions, mesh.triangles[triangle]);
   Json object;
   object["triangle"] = triangle;
   object["vertices"] = {a, b, c};

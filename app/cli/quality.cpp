@@ -81,7 +81,7 @@ std::string worst_text(const TriangleMesh& mesh, const std::vector<Index>& worst
   for (const Index t : worst) {
     const auto [a, b, c] = mesh.triangles[t];
     const Vec3 middle = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
-    const TriangleMetrics m = measure_triangle(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+    const TriangleMetrics m = measure_triangle(mesh.positions, mesh.triangles[t]);
     text += "  triangle " + std::to_string(t) + "  vertices " + std::to_string(a) + " " + std::to_string(b) +
             " " + std::to_string(c) + "  angles " + number_text(m.min_angle_deg) + " to " +
             number_text(m.max_angle_deg) + " deg  at " + number_text(middle.x()) + " " +

@@ -70,7 +70,7 @@ std::shared_ptr<const Geometry> measure_geometry(const Document& document, std::
   parallel_for_blocks(triangles.size(), 0, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const auto m = measure_triangle(x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]);
+      const auto m = measure_triangle(x, triangles[t]);
       geometry->min_angle_values[t] = m.min_angle_deg;
       geometry->max_angle_values[t] = m.max_angle_deg;
       geometry->area_values[t] = m.area;

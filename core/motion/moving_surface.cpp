@@ -216,9 +216,7 @@ bool MovingSurface::choose_held(std::span<const Vec3> positions) {
   std::vector<std::uint8_t> near(positions.size(), 0);
   bool any = false;
   for (const Triangle& t : triangles_) {
-    if (measure_triangle(positions[t[0]], positions[t[1]], positions[t[2]]).min_angle_deg >=
-        options_.only_below_deg)
-      continue;
+    if (measure_triangle(positions, t).min_angle_deg >= options_.only_below_deg) continue;
     any = true;
     for (const Index v : t) near[v] = 1;
   }

@@ -22,8 +22,7 @@ struct Faces {
     return area_vector(positions[a], positions[b], positions[c]);
   }
   [[nodiscard]] bool degenerate(std::size_t t) const {
-    const auto [a, b, c] = triangles[t];
-    return measure_triangle(positions[a], positions[b], positions[c]).degenerate;
+    return measure_triangle(positions, triangles[t]).degenerate;
   }
 };
 

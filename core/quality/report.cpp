@@ -79,8 +79,7 @@ QualityReport measure(std::span<const Vec3> positions, std::span<const Triangle>
   parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {
     Tally& tally = tallies[begin / kBlockSize];
     for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = triangles[t];
-      const TriangleMetrics m = measure_triangle(positions[a], positions[b], positions[c]);
+      const TriangleMetrics m = measure_triangle(positions, triangles[t]);
       areas[t] = m.area;
       tally.add(m);
     }

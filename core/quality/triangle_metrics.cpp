@@ -114,8 +114,7 @@ std::vector<double> face_metric(FaceMetric metric, std::span<const Vec3> positio
   parallel_for_blocks(triangles.size(), threads, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = triangles[t];
-      values[t] = value_of(measure_triangle(positions[a], positions[b], positions[c]), metric);
+      values[t] = value_of(measure_triangle(positions, triangles[t]), metric);
       sum += values[t];
     }
     block_sums[begin / kBlockSize] = sum;

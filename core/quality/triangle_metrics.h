@@ -37,6 +37,11 @@ struct TriangleMetrics {
 
 /// Metrics of the triangle (a, b, c). Angles by atan2(|cross|, dot), exact to rounding for slivers too.
 [[nodiscard]] TriangleMetrics measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+/// Of a triangle of a mesh. Precondition: its indices are below positions.size().
+[[nodiscard]] inline TriangleMetrics measure_triangle(std::span<const Vec3> positions,
+                                                      const Triangle& triangle) {
+  return measure_triangle(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]);
+}
 
 /// One number per triangle, for colours, histograms and lists of the worst.
 enum class FaceMetric {

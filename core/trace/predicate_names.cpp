@@ -15,8 +15,7 @@ double limited(const Moment& m) {
 }
 
 TriangleMetrics metrics(const Moment& m, Index t) {
-  const Triangle& corners = m.triangles[t];
-  return measure_triangle(m.positions[corners[0]], m.positions[corners[1]], m.positions[corners[2]]);
+  return measure_triangle(m.positions, m.triangles[t]);
 }
 
 constexpr PredicateName kNames[] = {

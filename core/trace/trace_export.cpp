@@ -90,7 +90,7 @@ class VtkPolyData {
   }
   void add_metric(std::span<const Vec3> x, const char* name, double TriangleMetrics::*member) {
     array("Float64", name, 1);
-    for (const Triangle& t : trace_.triangles) item(measure_triangle(x[t[0]], x[t[1]], x[t[2]]).*member);
+    for (const Triangle& t : trace_.triangles) item(measure_triangle(x, t).*member);
     close();
   }
 
