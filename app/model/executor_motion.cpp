@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
 #include "model/executor.h"
@@ -9,12 +7,6 @@
 
 namespace isorelax::model {
 namespace {
-
-std::string time_text(double time) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", time);
-  return text.data();
-}
 
 /// The step of a moving surface that led to its k-th moment, from 1.
 StepPlace place_of_step(const Branch& branch, unsigned k) {

@@ -1,6 +1,8 @@
 #include "model/motion_jobs.h"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -13,12 +15,6 @@ namespace isorelax::model {
 namespace {
 
 using MotionClock = std::chrono::steady_clock;
-
-std::string short_time(double time) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", time);
-  return text.data();
-}
 
 ValueRange extremes_of_areas(std::span<const Vec3> x, std::span<const Triangle> triangles) {
   double sum = 0;
@@ -67,7 +63,7 @@ class MotionReporter {
     note(&record);
     look_at_breakpoints(record);
     const double time = run_.surface().state().time;
-    context_.progress("Moving: t = " + short_time(time) + " of " + short_time(until_), time / until_);
+    context_.progress("Moving: t = " + time_text(time) + " of " + time_text(until_), time / until_);
     const auto since = MotionClock::now() - published_;
     if (context_.view_is_waiting() && since > measuring_ && since > std::chrono::milliseconds(15)) publish();
   }
@@ -234,6 +230,12 @@ StepRecord record_of_motion(std::span<const Vec3> before, std::span<const Vec3> 
   record.limits.assign(after.size(), 0);
   for (std::size_t v = 0; v < after.size(); ++v) record.displacement.emplace_back(after[v] - before[v]);
   return record;
+}
+
+std::string time_text(double time) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", time);
+  return text.data();
 }
 
 Engine::Job motion_job(MotionRequest request) {

@@ -7,6 +7,9 @@
 
 namespace isorelax::model {
 
+/// A time of a motion for people: four digits that count.
+[[nodiscard]] std::string time_text(double time);
+
 struct MotionRequest {
   DocumentPtr document;
   MotionChoices motion;
