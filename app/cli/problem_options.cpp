@@ -43,9 +43,8 @@ UntangleRule parse_untangle(const std::string& text) {
   throw UsageError("--untangle " + text + ": expected auto or off");
 }
 
-}  // namespace
-
-void declare_problem(CLI::App& app, ProblemSpec& spec) {
+/// What is minimised.
+void declare_energy(CLI::App& app, ProblemSpec& spec) {
   auto* mu = app.add_option("--mu", spec.mu, "mu_A: 0 improves angles only, 1 areas only (default 0)")
                  ->type_name("M")
                  ->check(number_between(0, 1));
@@ -70,6 +69,10 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
          "a --mu near 1, as 0.9: the smaller, the more angles win over sizes")
       ->type_name("FIELD")
       ->excludes(reference);
+}
+
+/// What vertices may do.
+void declare_rules(CLI::App& app, ProblemSpec& spec) {
   app.add_option(
          "--boundary", spec.boundary,
          "fixed (default); slide: along the border as it was, corners stay; or free: in the tangent plane "
@@ -106,6 +109,13 @@ void declare_problem(CLI::App& app, ProblemSpec& spec) {
                  "surface, where two groups meet: hold (default) or free")
       ->type_name("RULE")
       ->check(CLI::IsMember({"hold", "free"}));
+}
+
+}  // namespace
+
+void declare_problem(CLI::App& app, ProblemSpec& spec) {
+  declare_energy(app, spec);
+  declare_rules(app, spec);
   app.add_option("--threads", spec.threads, "Threads; 0: all (default). The result does not depend on it")
       ->type_name("N");
 }
