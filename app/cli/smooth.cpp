@@ -47,7 +47,7 @@ Json outcome_to_json(const SmoothOutcome& outcome, const std::string& broken_by)
   object["relative_move"] = outcome.run.relative_move;
   Json limited;
   for (std::size_t bit = 0; bit < kLimitBits; ++bit)
-    limited[std::string(limit_name(static_cast<Limit>(1U << bit)))] = outcome.limits[bit];
+    limited[std::string(limit_name(limit_of_bit(bit)))] = outcome.limits[bit];
   object["limited_in_last_step"] = std::move(limited);
   object["turned_over"] = outcome.turned_over.size();
   if (outcome.polish) {

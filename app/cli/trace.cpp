@@ -47,7 +47,7 @@ std::string iteration_table(const Trace& trace) {
     for (std::size_t bit = 0; bit < one.limits.size(); ++bit) {
       if (one.limits[bit] == 0) continue;
       limits += (limits.empty() ? " " : ", ") + std::to_string(one.limits[bit]) + " " +
-                std::string(limit_name(static_cast<Limit>(1U << bit)));
+                std::string(limit_name(limit_of_bit(bit)));
     }
     line(k, one.after.energy, one.quality, buffer.data() + limits);
   }

@@ -76,7 +76,7 @@ model::SetStage to_stage(Words words, const model::Session& session) {
 model::SelectLimited to_limited(Words words) {
   require(words, 1, 1);
   for (unsigned bit = 0; bit < kLimitBits; ++bit)
-    if (limit_name(static_cast<Limit>(1U << bit)) == words[1]) return {bit};
+    if (limit_name(limit_of_bit(bit)) == words[1]) return {bit};
   if (words[1] != "none") throw UsageError("\"" + words[1] + "\" is nothing that limits a vertex");
   return {};
 }
@@ -170,7 +170,7 @@ struct ToLine {
     return "triangle " + std::to_string(c.triangle);
   }
   std::string operator()(const model::SelectLimited& c) const {
-    return "limited " + (c.bit ? std::string(limit_name(static_cast<Limit>(1U << *c.bit))) : "none");
+    return "limited " + (c.bit ? std::string(limit_name(limit_of_bit(*c.bit))) : "none");
   }
   std::string operator()(const model::SetWorstBy& c) const {
     return "worst-by " + std::to_string(static_cast<unsigned>(c.by));

@@ -123,8 +123,7 @@ void add_reasons(const model::Session& session, std::span<const Vec3> x, render:
   }
   for (unsigned bit = 0; bit < kLimitBits; ++bit)
     if (occurs.at(bit))
-      scene.key.push_back(
-          {color_of(ui::color::kLimits[bit]), std::string(limit_name(static_cast<Limit>(1U << bit)))});
+      scene.key.push_back({color_of(ui::color::kLimits[bit]), std::string(limit_name(limit_of_bit(bit)))});
 }
 
 }  // namespace

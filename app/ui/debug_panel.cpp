@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 8> kReasonTips{
 };
 
 void draw_reason(const Ui& ui, unsigned bit, std::size_t count, std::size_t vertices) {
-  const auto limit = static_cast<Limit>(1U << bit);
+  const Limit limit = limit_of_bit(bit);
   const std::string name = "reason/" + std::string(limit_name(limit));
   const bool chosen = ui.session.selected_limit == bit;
   const ImVec2 low = ImGui::GetCursorScreenPos();

@@ -115,7 +115,7 @@ std::string limit_text(std::uint16_t limits) {
   std::string text;
   for (unsigned bit = 0; bit < kLimitBits; ++bit)
     if ((limits >> bit & 1U) != 0)
-      text += (text.empty() ? "" : ", ") + std::string(limit_name(static_cast<Limit>(1U << bit)));
+      text += (text.empty() ? "" : ", ") + std::string(limit_name(limit_of_bit(bit)));
   return text.empty() ? "nothing" : text;
 }
 

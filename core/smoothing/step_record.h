@@ -22,6 +22,10 @@ enum Limit : std::uint16_t {
   kLimitConverged = 128,  ///< asked for no move worth making
 };
 inline constexpr std::size_t kLimitBits = 8;
+/// The limit of a bit, 0 to kLimitBits - 1.
+constexpr Limit limit_of_bit(std::size_t bit) {
+  return static_cast<Limit>(1U << bit);
+}
 
 /// What made a step. Written to traces: new ones come last.
 enum class StepKind : std::uint8_t {

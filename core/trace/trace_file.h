@@ -67,7 +67,7 @@ void visit_numbers(Iteration& iteration, const Visit& visit) {
   visit("energy_passes", iteration.energy_passes);
   visit("moved", iteration.moved);
   for (std::size_t bit = 0; bit < iteration.limits.size(); ++bit)
-    visit("limited_" + std::string(limit_name(static_cast<Limit>(1U << bit))), iteration.limits[bit]);
+    visit("limited_" + std::string(limit_name(limit_of_bit(bit))), iteration.limits[bit]);
   visit("class_changes", iteration.class_changes);
   visit("min_angle_deg", iteration.quality.min_angle_deg);
   visit("max_angle_deg", iteration.quality.max_angle_deg);
