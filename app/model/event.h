@@ -82,9 +82,10 @@ struct RunEnded {
 struct SurfaceMeasured {
   std::shared_ptr<const Geometry> geometry;  ///< of which state
   Deviation deviation;
-  double limit = 0;        ///< that every step has to keep, over the diagonal
-  bool is_over = false;    ///< it is farther: of what untangling took, only a typed limit knows
-  std::size_t turned = 0;  ///< triangles that lie upside down and did not
+  double limit = 0;          ///< that every step has to keep, over the diagonal
+  bool is_over = false;      ///< it is farther: of what untangling took, only a typed limit knows
+  std::size_t turned = 0;    ///< triangles that lie upside down and did not
+  std::size_t crossing = 0;  ///< that cross others, where none did
 };
 /// Others were in more of a hurry than to measure that.
 struct SurfaceGaveWay {};

@@ -283,12 +283,17 @@ void Executor::measure_surface() {
 void Executor::operator()(SurfaceMeasured& event) {
   if (!s_.current || event.geometry != s_.current->geometry) return;
   std::string text;
-  if (event.turned > 0) text = count_label(static_cast<unsigned>(event.turned), "triangle") + " turned over";
+  const auto tell = [&](const std::string& what) { text += (text.empty() ? "" : " and ") + what; };
+  const auto triangles = [](std::size_t count) {
+    return count_label(static_cast<unsigned>(count), "triangle");
+  };
+  if (event.turned > 0) tell(triangles(event.turned) + " turned over");
+  if (event.crossing > 0) tell(triangles(event.crossing) + " came to cross others");
   if (event.is_over) {
     char away[96];
     std::snprintf(away, sizeof away, "the surface went %.2g %% of its diagonal away from the original",
                   100 * event.deviation.max);
-    text += (text.empty() ? "" : " and ") + std::string(away);
+    tell(away);
   }
   if (!text.empty() && s_.surface_is_news_)
     say(MessageKind::warning,

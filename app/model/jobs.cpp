@@ -253,8 +253,9 @@ Engine::Job surface_job(DocumentPtr document, SmoothingSettings settings, MeshSt
     const double limit = kept_near(settings, start, *problem).deviation;
     const SurfaceWatch::Finding found =
         SurfaceWatch(limited_from(settings, mesh, start), start, *problem).look(state->positions(), limit);
-    SurfaceMeasured measured{state->geometry, found.deviation, limit,
-                             is_over_limit(found.deviation.max, limit), found.turned_triangles};
+    SurfaceMeasured measured{
+        state->geometry,        found.deviation,         limit, is_over_limit(found.deviation.max, limit),
+        found.turned_triangles, found.crossing_triangles};
     // Triangles upside down in a plane cover what the sound ones cover as well.
     if (base && !document->plane_normal)
       measured.deviation =

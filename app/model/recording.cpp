@@ -51,6 +51,7 @@ void Recording::note_fresh_start(PartKind kind, const SmoothingProblem& problem)
     part.holds.distance = problem.near->distance;
     part.holds.on_fits = problem.near->on_fits;
   }
+  part.holds.apart = problem.apart;
   part.base = to_base_;
   part.from_base = from_base_ && size() == 0;
   parts.push_back(std::move(part));

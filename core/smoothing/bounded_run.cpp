@@ -146,6 +146,7 @@ SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> posi
                                      SurfaceHolds holds, const SurfaceWatch& watch, double limit,
                                      const Attempts& attempts) {
   const std::vector<Vec3> smoothed(positions.begin(), positions.end());
+  holds.apart = true;  // its steps cannot look out for more
   for (double share = 1;; std::copy(smoothed.begin(), smoothed.end(), positions.begin())) {
     holds.distance = share * watch.largest_distance(limit);
     SmoothingProblem problem = unheld;

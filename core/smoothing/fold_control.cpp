@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/parallel.h"
+#include "smoothing/newly_crossing.h"
 
 namespace isorelax {
 namespace {
@@ -21,6 +22,8 @@ constexpr unsigned kRoundsForAll = 6;
 /// it, and rounds after which it loses all.
 constexpr unsigned kSlidingRounds = 2;
 constexpr unsigned kNearRounds = 6;
+/// Rounds after which what would cross something loses all of its move.
+constexpr unsigned kApartRounds = 4;
 
 /// c + b a + q a^2: signed area along the move, over the old normal.
 struct AreaAlongMove {
@@ -204,12 +207,19 @@ void FoldControl::limit(Trial& trial, StepRecord& record, bool together) {
     trial.cut_all(record, alpha, kLimitFold);
   }
   shrink_until_near(trial, record);
+  if (problem_.apart) shrink_until_apart(trial, record, newly_crossing(problem_, trial.from(), trial.to()));
 }
 
 std::vector<Index> FoldControl::limit(Trial& trial, StepRecord& record, std::span<const Index> triangles) {
   std::vector<Index> changed = shrink_until_free(trial, record, check(trial, triangles));
   const std::vector<Index> nearer = shrink_until_near(trial, record);
   changed.insert(changed.end(), nearer.begin(), nearer.end());
+  if (!problem_.apart) return changed;
+  std::vector<Index> moved(triangles.begin(), triangles.end());
+  moved.insert(moved.end(), changed.begin(), changed.end());
+  const std::vector<Index> apart =
+      shrink_until_apart(trial, record, newly_crossing(problem_, moved, trial.from(), trial.to()));
+  changed.insert(changed.end(), apart.begin(), apart.end());
   return changed;
 }
 
@@ -266,6 +276,29 @@ std::vector<Index> FoldControl::shrink_until_near(Trial& trial, StepRecord& reco
     const std::vector<Index> unfolded = shrink_until_free(trial, record, check(trial, touched));
     changed.insert(changed.end(), unfolded.begin(), unfolded.end());
   }
+}
+
+/// Cuts back the vertices of triangles that would come to cross others, until none would.
+std::vector<Index> FoldControl::shrink_until_apart(Trial& trial, StepRecord& record,
+                                                   std::vector<Index> crossing) {
+  std::vector<Index> changed;
+  for (unsigned round = 1; !crossing.empty(); ++round) {
+    ++record.fold_passes;
+    begin_pass(record, kLimitFold);
+    const double factor = round >= kApartRounds ? 0.0 : 0.5;
+    for (const Index t : crossing)
+      for (const Index v : problem_.triangles[t])
+        if (trial.cut(record, v, factor, kLimitFold)) note_cut(record, v, t);
+    std::vector<Index> touched = trial.take_touched();
+    if (touched.empty()) break;
+    for (const auto& more :
+         {shrink_until_free(trial, record, check(trial, touched)), shrink_until_near(trial, record)})
+      touched.insert(touched.end(), more.begin(), more.end());
+    touched.insert(touched.end(), crossing.begin(), crossing.end());
+    crossing = newly_crossing(problem_, touched, trial.from(), trial.to());
+    changed.insert(changed.end(), touched.begin(), touched.end());
+  }
+  return changed;
 }
 
 }  // namespace isorelax

@@ -28,7 +28,8 @@ inline constexpr double kShorter = 0.25;
 /// with the scaled moves until no triangle limits. After a bounded number of rounds what still folds is
 /// stopped (its vertices do not move), which always ends. Rounds after the first look only at triangles whose
 /// vertices were scaled. Likewise what would be farther from the surface as it was than the problem allows
-/// (SurfaceLimit): vertices there slide along the limit first, then are cut back.
+/// (SurfaceLimit): vertices there slide along the limit first, then are cut back. And what would come to
+/// cross something, where the problem asks for that.
 class FoldControl {
  public:
   /// Keeps a reference to the problem.
@@ -58,6 +59,7 @@ class FoldControl {
                                                           std::vector<Cut> cuts, double most);
   std::vector<Index> shrink_until_free(Trial& trial, StepRecord& record, std::vector<Cut> cuts);
   std::vector<Index> shrink_until_near(Trial& trial, StepRecord& record);
+  std::vector<Index> shrink_until_apart(Trial& trial, StepRecord& record, std::vector<Index> crossing);
 
   const SmoothingProblem& problem_;
   TurnLimit turns_;

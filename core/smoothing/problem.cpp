@@ -414,6 +414,7 @@ void hold(SmoothingProblem& problem, const SurfaceHolds& holds, std::span<const 
     problem.mobility[v] = Mobility::none;
     problem.fixed_limits[v] |= kLimitSurface;
   }
+  problem.apart = holds.apart;
   // In a plane only a border that moves, and not along straight stretches alone, could leave what the mesh
   // covers.
   bool can_leave = !problem.plane_normal;

@@ -71,6 +71,8 @@ struct SurfaceHolds {
   double distance = std::numeric_limits<double>::infinity();
   /// Vertices stay on the local fits of the surface even where these rise far above its triangles.
   bool on_fits = false;
+  /// Every step keeps triangles from coming to cross each other, and not only the run as a whole.
+  bool apart = false;
 
   bool operator==(const SurfaceHolds&) const = default;
 };
@@ -129,6 +131,7 @@ struct SmoothingProblem {
   std::vector<SurfaceAnchor> anchors;
   /// What the surface must not go far from; none where nobody asks.
   std::optional<NearSurface> near;
+  bool apart = false;  ///< SurfaceHolds
   /// Unit normals of the triangles at the start, on curved surfaces: no triangle turns far from its own.
   std::vector<Vec3> initial_normals;
   /// Of the surroundings of triangles that stand on them: those may lie down.

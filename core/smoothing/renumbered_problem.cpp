@@ -28,6 +28,7 @@ class Renumberer {
             .surface = p_.surface,
             .anchors = in_order(vertices(), p_.anchors),
             .near = moved_near(moved),
+            .apart = p_.apart,
             .initial_normals = in_order(triangles(), p_.initial_normals),
             .surrounding_normals = moved_normals(),
             .worst_angles = p_.worst_angles,

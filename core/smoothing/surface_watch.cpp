@@ -6,9 +6,9 @@
 
 #include "mesh/parallel.h"
 #include "quality/inverted.h"
+#include "smoothing/newly_crossing.h"
 #include "smoothing/outline.h"
 #include "smoothing/turn_limit.h"
-#include "surface/crossings.h"
 
 namespace isorelax {
 namespace {
@@ -102,50 +102,23 @@ std::vector<Index> SurfaceWatch::facing_away(std::span<const Vec3> positions) co
   return all;
 }
 
-/// Sheets that are thinner than they may move come to cross each other, far from each other on the mesh, and
-/// so do borders that are free.
-std::vector<Index> SurfaceWatch::crossing(std::span<const Vec3> positions) const {
-  std::vector<Index> found;
-  const std::vector<Triangle>& triangles = problem_.triangles;
-  if (problem_.plane_normal) {
-    const auto borders = [&](std::span<const Vec3> x) {
-      return crossing_borders(x, triangles, problem_.topology, *problem_.plane_normal, problem_.threads);
-    };
-    if (keeps_border(positions, 0)) return {};
-    const auto pairs = borders(positions);
-    if (pairs.empty() || !borders(start_).empty()) return {};
-    for (const auto& [c, d] : pairs) found.insert(found.end(), {c / 3, d / 3});
-    return found;
-  }
-  for (const auto& pair : crossing_pairs({positions, triangles}, positions, triangles, problem_.threads)) {
-    if (!crossed_beside(pair)) found.insert(found.end(), pair.begin(), pair.end());
-  }
-  return found;
-}
-
-/// Whether the two, or triangles that share vertices with them, crossed at the start: others may cross now
-/// where vertices slid along.
-bool SurfaceWatch::crossed_beside(const std::array<Index, 2>& pair) const {
-  const auto about = [&](Index t, const auto& look_at) {
-    return std::ranges::any_of(problem_.triangles[t], [&](Index v) {
-      return std::ranges::any_of(problem_.topology.corners_of(v), [&](Corner c) { return look_at(c / 3); });
-    });
-  };
-  return about(pair[0], [&](Index s) {
-    return about(pair[1],
-                 [&](Index t) { return do_cross(start_, problem_.triangles[s], problem_.triangles[t]); });
-  });
-}
-
 SurfaceWatch::Finding SurfaceWatch::look(std::span<const Vec3> positions, double limit) const {
   Finding found;
   const std::vector<Index> inverted =
       inverted_triangles(positions, problem_.triangles, problem_.topology, problem_.threads);
   found.turned = vertices_turned_over(inverted_, inverted, problem_.triangles);
-  for (const auto& triangles : {facing_away(positions), crossing(positions)})
+  const auto add_triangles = [&](const std::vector<Index>& triangles) {
     for (const Index t : triangles)
       found.turned.insert(found.turned.end(), problem_.triangles[t].begin(), problem_.triangles[t].end());
+  };
+  add_triangles(facing_away(positions));
   found.turned_triangles = found.turned.size() / 3;
+  // Sheets that are thinner than they may move come to cross each other, far from each other on the mesh.
+  std::vector<Index> crossing = newly_crossing(problem_, start_, positions);
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  add_triangles(crossing);
+  found.crossing_triangles = crossing.size();
   if (std::ranges::equal(surface_, start_) && covers_the_same(positions, inverted)) return found;
   const DeviationByTriangle deviation = measure_deviation_by_triangle(surface_, positions, problem_.triangles,
                                                                       problem_.topology, problem_.threads);
@@ -160,6 +133,10 @@ double SurfaceWatch::largest_distance(double limit) const {
 }
 
 void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const {
+  if (found.crossing_triangles > 0 && !holds.apart) {
+    holds.apart = true;
+    return;
+  }
   if (add(holds.still, found.turned)) return;
   if (!found.far.empty() && share > kLeastShare) {
     const double by_as_much = kLittleNearer * limit / found.deviation.max;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -19,7 +18,7 @@ class SurfaceWatch {
     /// Of triangles that lie upside down and did not at the start, of those that face away from the surface
     /// beside them, as it was, and did not, and of those that cross others where none did.
     std::vector<Index> turned;
-    std::size_t turned_triangles = 0;
+    std::size_t turned_triangles = 0, crossing_triangles = 0;
 
     [[nodiscard]] bool sound() const { return far.empty() && turned.empty(); }
   };
@@ -33,16 +32,14 @@ class SurfaceWatch {
   /// The largest distance that steps may lead to under a limit, in length units.
   [[nodiscard]] double largest_distance(double limit) const;
 
-  /// Holds more than was held in vain. Where steps that keep the surface near let it go too far between the
-  /// edges that they look at, they have to keep it nearer, within a smaller share of the largest distance; at
-  /// last vertices do not move at all, as where triangles turned over, and then their neighbours neither.
-  /// `limit` is the one that was looked with.
+  /// Holds more than was held in vain. Where something crosses, steps have to look out for that; where steps
+  /// that keep the surface near let it go too far between the edges that they look at, they have to keep it
+  /// nearer, within a smaller share of the largest distance; at last vertices do not move at all, as where
+  /// triangles turned over, and then their neighbours neither. `limit` is the one that was looked with.
   void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const;
 
  private:
   [[nodiscard]] std::vector<Index> facing_away(std::span<const Vec3> positions) const;
-  [[nodiscard]] std::vector<Index> crossing(std::span<const Vec3> positions) const;
-  [[nodiscard]] bool crossed_beside(const std::array<Index, 2>& pair) const;
   [[nodiscard]] bool covers_the_same(std::span<const Vec3> after, std::span<const Index> inverted) const;
   [[nodiscard]] bool keeps_border(std::span<const Vec3> after, double rounding) const;
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
@@ -65,9 +63,9 @@ class ClosestPointIndex {
   [[nodiscard]] const PreparedTriangle& prepared(Index triangle) const {
     return records_[record_of_[triangle]].corners;
   }
-  /// Calls visit(other) for the triangles whose boxes meet that of one, of each two for one of both only.
+  /// Calls visit(triangle) for all whose own boxes meet this one, in no order.
   template <typename Visit>
-  void for_each_beside(Index triangle, const Visit& visit) const;
+  void for_each_in(const Eigen::AlignedBox3d& box, const Visit& visit) const;
 
  private:
   /// The boxes of both children side by side. A child with a count is a leaf: `count` records from `child`.
@@ -98,43 +96,27 @@ class ClosestPointIndex {
   std::vector<std::uint32_t> record_of_;
 };
 
-/// Those behind it in the order of the leaves: on the way up from it, all that is right of the way.
 template <typename Visit>
-void ClosestPointIndex::for_each_beside(Index triangle, const Visit& visit) const {
-  const std::uint32_t own = record_of_[triangle];
-  const Eigen::AlignedBox3d box = records_[own].corners.box();
+void ClosestPointIndex::for_each_in(const Eigen::AlignedBox3d& box, const Visit& visit) const {
   const auto look_at = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = std::max<std::size_t>(begin, own + 1); i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i)
       if (box.intersects(records_[i].corners.box())) visit(records_[i].triangle);
   };
-  const auto descend = [&](std::uint32_t from, unsigned on_side) {
-    std::array<std::pair<std::uint32_t, unsigned>, kMaxDepth> stack;
-    std::size_t depth = 0;
-    stack[depth++] = {from, on_side};
-    while (depth > 0) {
-      const auto [at, side] = stack[--depth];
-      const Node& node = nodes_[at];
+  if (nodes_.empty()) return look_at(0, records_.size());
+  std::array<std::uint32_t, kMaxDepth> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    for (unsigned side = 0; side < 2; ++side) {
       if ((node.low.col(side) > box.max().array()).any() || (node.high.col(side) < box.min().array()).any())
         continue;
       if (node.count[side] > 0) {
         look_at(node.child[side], node.child[side] + node.count[side]);
       } else {
-        stack[depth++] = {node.child[side], 0};
-        stack[depth++] = {node.child[side], 1};
+        stack[depth++] = node.child[side];
       }
     }
-  };
-  if (nodes_.empty()) return look_at(0, records_.size());
-  std::uint32_t at = records_[own].node;
-  if (nodes_[at].count[0] > 0 && own < nodes_[at].child[0] + nodes_[at].count[0]) {
-    look_at(nodes_[at].child[0], nodes_[at].child[0] + nodes_[at].count[0]);
-    descend(at, 1);
-  } else {
-    look_at(nodes_[at].child[1], nodes_[at].child[1] + nodes_[at].count[1]);
-  }
-  for (; at != 0; at = nodes_[at].parent) {
-    const Node& parent = nodes_[nodes_[at].parent];
-    if (parent.count[0] == 0 && parent.child[0] == at) descend(nodes_[at].parent, 1);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "surface/crossings.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "mesh/parallel.h"
 
@@ -69,23 +69,85 @@ bool do_cross(const Corners& s, const Plane& plane, const Corners& t) {
   return are_on_both(of_s) && (pierces(t, of_t, s) || pierces(s, of_s, t));
 }
 
-/// Pairs of an index for which make_test(one)(other) holds, in ascending order.
-template <typename MakeTest>
-std::vector<std::array<Index, 2>> find_pairs(const ClosestPointIndex& index, std::size_t count,
-                                             unsigned threads, const MakeTest& make_test) {
-  std::vector<std::vector<std::array<Index, 2>>> found(block_count(count));
-  parallel_for_blocks(count, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto s = static_cast<Index>(i);
-      const auto test = make_test(s);
-      index.for_each_beside(s, [&](Index t) {
-        if (test(t)) found[begin / kBlockSize].push_back({std::min(s, t), std::max(s, t)});
+/// A triangle that may cross others.
+class Crosser {
+ public:
+  Crosser(std::span<const Vec3> positions, std::span<const Triangle> triangles, Index triangle)
+      : x_(positions),
+        triangles_(triangles),
+        corners_(corners_of(positions, triangles[triangle])),
+        plane_(corners_[0], corners_[1], corners_[2]) {}
+
+  [[nodiscard]] Eigen::AlignedBox3d box() const {
+    return Eigen::AlignedBox3d(corners_[0]).extend(corners_[1]).extend(corners_[2]);
+  }
+  [[nodiscard]] bool meets(Index other) const {
+    return do_cross(corners_, plane_, corners_of(x_, triangles_[other]));
+  }
+
+ private:
+  std::span<const Vec3> x_;
+  std::span<const Triangle> triangles_;
+  Corners corners_;
+  Plane plane_;
+};
+
+/// A line in the plane with a normal that may cross others.
+class BorderCrosser {
+ public:
+  BorderCrosser(std::span<const Vec3> positions, std::span<const Triangle> edges, const Vec3& normal,
+                Index edge)
+      : x_(positions), edges_(edges), normal_(normal), own_(edges[edge]), plane_(through(own_)) {}
+
+  [[nodiscard]] Eigen::AlignedBox3d box() const {
+    return Eigen::AlignedBox3d(x_[own_[0]]).extend(x_[own_[1]]);
+  }
+  [[nodiscard]] bool meets(Index other) const {
+    const auto are_apart = [&](const Plane& plane, const Triangle& ends) {
+      return plane.side_of(x_[ends[0]]) * plane.side_of(x_[ends[1]]) < 0;
+    };
+    return are_apart(plane_, edges_[other]) && are_apart(through(edges_[other]), own_);
+  }
+
+ private:
+  [[nodiscard]] Plane through(const Triangle& ends) const {
+    const Vec3 &a = x_[ends[0]], &b = x_[ends[1]];
+    return {a, b, a + (b - a).lpNorm<1>() * normal_};
+  }
+
+  std::span<const Vec3> x_;
+  std::span<const Triangle> edges_;
+  Vec3 normal_;
+  Triangle own_;
+  Plane plane_;
+};
+
+/// Pairs of one of `some` and any of `count` in the index that meet, as make(one) tells, in ascending order.
+template <typename Make>
+std::vector<std::array<Index, 2>> find_pairs(const ClosestPointIndex& index, std::span<const Index> some,
+                                             std::size_t count, unsigned threads, const Make& make) {
+  std::vector<std::uint8_t> is_some(count, 0);
+  for (const Index s : some) is_some[s] = 1;
+  std::vector<std::vector<std::array<Index, 2>>> found(block_count(some.size()));
+  parallel_for_blocks(some.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (const Index s : some.subspan(begin, end - begin)) {
+      const auto crosser = make(s);
+      index.for_each_in(crosser.box(), [&](Index t) {
+        const bool is_turn = is_some[t] == 0 || t > s;  // of two of them the first looks
+        if (is_turn && crosser.meets(t))
+          found[begin / kBlockSize].push_back({std::min(s, t), std::max(s, t)});
       });
     }
   });
   std::vector<std::array<Index, 2>> all;
   for (const auto& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
   std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<Index> up_to(std::size_t count) {
+  std::vector<Index> all(count);
+  std::iota(all.begin(), all.end(), Index{0});
   return all;
 }
 
@@ -99,12 +161,15 @@ bool do_cross(std::span<const Vec3> positions, const Triangle& s, const Triangle
 std::vector<std::array<Index, 2>> crossing_pairs(const ClosestPointIndex& index,
                                                  std::span<const Vec3> positions,
                                                  std::span<const Triangle> triangles, unsigned threads) {
-  return find_pairs(index, triangles.size(), threads, [&](Index s) {
-    const Corners own = corners_of(positions, triangles[s]);
-    return [own, plane = Plane(own[0], own[1], own[2]), positions, triangles](Index t) {
-      return do_cross(own, plane, corners_of(positions, triangles[t]));
-    };
-  });
+  return crossing_pairs_of(up_to(triangles.size()), index, positions, triangles, threads);
+}
+
+std::vector<std::array<Index, 2>> crossing_pairs_of(std::span<const Index> some,
+                                                    const ClosestPointIndex& index,
+                                                    std::span<const Vec3> positions,
+                                                    std::span<const Triangle> triangles, unsigned threads) {
+  return find_pairs(index, some, triangles.size(), threads,
+                    [&](Index t) { return Crosser(positions, triangles, t); });
 }
 
 std::vector<std::array<Corner, 2>> crossing_borders(std::span<const Vec3> positions,
@@ -119,14 +184,8 @@ std::vector<std::array<Corner, 2>> crossing_borders(std::span<const Vec3> positi
     corners.push_back(c);
     edges.push_back({t[next(c % 3)], t[previous(c % 3)], t[previous(c % 3)]});
   }
-  auto pairs = find_pairs({positions, edges}, edges.size(), threads, [&](Index s) {
-    const Vec3 &a = positions[edges[s][0]], &b = positions[edges[s][1]];
-    return [&, plane = Plane(a, b, a + (b - a).lpNorm<1>() * normal)](Index t) {
-      const Vec3 &p = positions[edges[t][0]], &q = positions[edges[t][1]];
-      const Plane other(p, q, p + (q - p).lpNorm<1>() * normal);
-      return plane.side_of(p) * plane.side_of(q) < 0 && other.side_of(a) * other.side_of(b) < 0;
-    };
-  });
+  auto pairs = find_pairs({positions, edges}, up_to(edges.size()), edges.size(), threads,
+                          [&](Index e) { return BorderCrosser(positions, edges, normal, e); });
   for (auto& pair : pairs) pair = {corners[pair[0]], corners[pair[1]]};
   return pairs;
 }

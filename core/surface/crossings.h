@@ -21,6 +21,13 @@ namespace isorelax {
                                                                std::span<const Triangle> triangles,
                                                                unsigned threads = 0);
 
+/// Those pairs of which at least one is among `some`.
+[[nodiscard]] std::vector<std::array<Index, 2>> crossing_pairs_of(std::span<const Index> some,
+                                                                  const ClosestPointIndex& index,
+                                                                  std::span<const Vec3> positions,
+                                                                  std::span<const Triangle> triangles,
+                                                                  unsigned threads = 0);
+
 /// Pairs of border edges that cross in a mesh that lies in the plane with this unit normal, each named by the
 /// corner opposite to it: what it covers there, it covers twice. Else as above.
 [[nodiscard]] std::vector<std::array<Corner, 2>> crossing_borders(std::span<const Vec3> positions,

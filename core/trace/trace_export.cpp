@@ -139,6 +139,7 @@ Json part_json(const TracePart& part) {
   json["held"] = part.holds.still;
   json["kept_within"] = part.holds.distance;
   json["on_fits"] = part.holds.on_fits;
+  json["apart"] = part.holds.apart;
   if (part.words) json["arguments"] = part.words->arguments;
   return json;
 }

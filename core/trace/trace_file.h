@@ -17,12 +17,13 @@ namespace isorelax {
 /// part. Numbers are little endian.
 ///
 /// PART begins with done (8 bytes), exponent, distance of the holds (doubles), flags (8: 1 polish, 2
-/// from_base, 4 words of its own, 8 on_fits), the count of vertices held still (8) and these vertices (4
-/// each). Version 1 had no TraceParts; version 2 had after that count another one, of vertices about which
-/// the distance was kept, and those after the others: their parts are read as keeping it everywhere. Up to
-/// version 3 STEP did not tell what made the step; up to version 4 nothing stayed on fits.
+/// from_base, 4 words of its own, 8 on_fits, 16 apart), the count of vertices held still (8) and these
+/// vertices (4 each). Version 1 had no TraceParts; version 2 had after that count another one, of vertices
+/// about which the distance was kept, and those after the others: their parts are read as keeping it
+/// everywhere. Up to version 3 STEP did not tell what made the step; up to version 4 nothing stayed on fits;
+/// up to version 5 no part was kept apart.
 inline constexpr std::string_view kTraceMagic = "ISOTRACE";
-inline constexpr std::uint32_t kTraceVersion = 5;
+inline constexpr std::uint32_t kTraceVersion = 6;
 inline constexpr std::uint32_t kFirstTraceVersion = 1;
 inline constexpr std::uint32_t kVersionOfKeptVertices = 2;
 inline constexpr std::uint32_t kFirstVersionOfKinds = 4;
@@ -30,7 +31,8 @@ enum TracePartFlag : std::uint64_t {
   kTracePartPolish = 1,
   kTracePartFromBase = 2,
   kTracePartWords = 4,
-  kTracePartOnFits = 8
+  kTracePartOnFits = 8,
+  kTracePartApart = 16
 };
 
 /// The bytes of a trace file.

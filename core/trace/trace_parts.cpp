@@ -55,7 +55,8 @@ bool says_more_than_words(const Trace& trace, const TracePart& part) {
   const auto& words = words_of(trace, part).arguments;
   const bool chosen =
       part.exponent != kDefaultExponent && std::find(words.begin(), words.end(), "--exponent") == words.end();
-  return chosen || part.from_base || !part.holds.still.empty() || std::isfinite(part.holds.distance);
+  return chosen || part.from_base || !part.holds.still.empty() || part.holds.apart ||
+         std::isfinite(part.holds.distance);
 }
 
 bool same_bits(std::span<const Vec3> first, std::span<const Vec3> second) {

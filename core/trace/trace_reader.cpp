@@ -167,12 +167,14 @@ class Reader {
     if (before == nullptr ? done != 0 : done <= before->done || done > trace_.iterations.size())
       fail(part_start_, "the parts of the run are not in order");
     if (!std::isfinite(read.exponent) || !(read.exponent >= 1) || !(read.holds.distance >= 0) ||
-        flags > (kTracePartPolish | kTracePartFromBase | kTracePartWords | kTracePartOnFits))
+        flags >
+            (kTracePartPolish | kTracePartFromBase | kTracePartWords | kTracePartOnFits | kTracePartApart))
       fail(part_start_, "a part of the run has numbers that cannot be");
     read.done = done;
     read.kind = (flags & kTracePartPolish) != 0 ? PartKind::polish : PartKind::solver;
     read.from_base = (flags & kTracePartFromBase) != 0;
     read.holds.on_fits = (flags & kTracePartOnFits) != 0;
+    read.holds.apart = (flags & kTracePartApart) != 0;
     read_held(numbers, still, read.holds.still);
     std::vector<Index> kept_near;
     read_held(numbers, near, kept_near);

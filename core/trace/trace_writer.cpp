@@ -68,7 +68,8 @@ std::string content_of(const TracePart& part) {
   append(bytes, (part.kind == PartKind::polish ? kTracePartPolish : std::uint64_t{0}) |
                     (part.from_base ? kTracePartFromBase : std::uint64_t{0}) |
                     (part.words ? kTracePartWords : std::uint64_t{0}) |
-                    (part.holds.on_fits ? kTracePartOnFits : std::uint64_t{0}));
+                    (part.holds.on_fits ? kTracePartOnFits : std::uint64_t{0}) |
+                    (part.holds.apart ? kTracePartApart : std::uint64_t{0}));
   append(bytes, std::uint64_t{part.holds.still.size()});
   for (const Index v : part.holds.still) append(bytes, v);
   if (part.words) {

@@ -42,7 +42,7 @@ Trace with_parts() {
   trace.parts.resize(2);
   trace.parts[0].base = trace.iterations[0].delta;
   trace.parts[0].from_base = true;
-  trace.parts[0].holds = {{3, 5}, 0.25, true};
+  trace.parts[0].holds = {{3, 5}, 0.25, true, true};
   trace.parts[1].done = 1;
   trace.parts[1].exponent = 8;
   trace.parts[1].kind = PartKind::polish;
@@ -60,6 +60,29 @@ TEST(TraceParts, SayHowEveryStepOfABoundedRunIsMadeAgain) {
   EXPECT_EQ(part_of(trace, 1), trace.parts.data());
   EXPECT_EQ(part_of(trace, trace.parts[1].done + 1), &trace.parts[1]);
   EXPECT_FALSE(replay_parts(trace, plan));
+}
+
+TEST(TraceParts, RunsThatAreKeptFromCrossingThemselvesAreReplayed) {
+  // A shell that is thinner than its sides may move.
+  TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = 5, .triangles = 400, .jitter = 0.6});
+  const Index outside = mesh.vertex_count();
+  for (Index v = 0; v < outside; ++v) mesh.positions.push_back(0.99 * mesh.positions[v]);
+  for (std::size_t t = 0, count = mesh.triangles.size(); t < count; ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    mesh.triangles.push_back({c + outside, b + outside, a + outside});
+  }
+  TraceRecorder recorder({}, mesh);
+  (void)run_bounded(
+      mesh.positions, mesh.triangles, {},
+      [](const SmoothingProblem& problem) { return make_newton(problem); }, {.iterations = 5}, {0.01},
+      [&](unsigned k, const StepRecord& step, auto now) { return recorder.add(k, step, now), true; }, {},
+      [&](const RunPart& part, auto now) { recorder.begin_part(part, now); });
+  ASSERT_EQ(recorder.trace().parts.size(), 1U);
+  EXPECT_TRUE(recorder.trace().parts[0].holds.apart);
+  EXPECT_FALSE(replay_parts(recorder.trace(), plan));
+  Trace changed = recorder.trace();
+  changed.parts[0].holds.apart = false;
+  EXPECT_TRUE(replay_parts(changed, plan));
 }
 
 TEST(TraceParts, AreNeededAndTheirReplayNamesTheFirstStepThatDiffers) {
