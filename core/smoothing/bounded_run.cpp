@@ -1,16 +1,16 @@
 #include "smoothing/bounded_run.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 
 #include "quality/inverted.h"
 #include "quality/report.h"
 #include "smoothing/objective.h"
 #include "smoothing/polish.h"
+#include "smoothing/short_text.h"
 #include "smoothing/surface_watch.h"
+#include "smoothing/worst_note.h"
 
 namespace isorelax {
 namespace {
@@ -22,14 +22,6 @@ constexpr double kTryTolerance = 1e-3;
 /// Degrees by which a mean may fall and still counts as the same.
 constexpr double kSameMean = 0.01;
 constexpr auto kSurfaceBit = static_cast<std::size_t>(std::countr_zero(unsigned{kLimitSurface}));
-
-/// Three digits of a number.
-std::string short_text(double value) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
-  return {text.data(), end};
-}
 
 /// What the user is told about triangles that lay upside down; nothing where there were none.
 std::vector<std::string> note_of(const UntangleResult& untangled) {
@@ -230,7 +222,10 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
       found = polish_soundly(result, positions, original, unheld, holds, watch, widest, attempts);
     }
     result.deviation = found.deviation;
-    if (result.run.stopped == StopReason::fixed || (sound && !trying)) return result;
+    if (result.run.stopped == StopReason::fixed || (sound && !trying)) {
+      if (const auto note = note_on_worst(unheld, positions)) result.notes.push_back(*note);
+      return result;
+    }
     if (!sound) watch.hold_more(holds, share, found, limit);
     trying = !sound;
   }

@@ -217,6 +217,27 @@ TEST(BoundedRun, ATightLimitCostsLittleQuality) {
   EXPECT_GT(measure_quality(mesh).mean_min_angle_deg, best.mean_min_angle_deg - 0.5);
 }
 
+TEST(BoundedRun, TellsWhichFeaturesHoldTheWorstTriangle) {
+  // A flat box: its narrow sides are cut into needles between corners.
+  TriangleMesh box;
+  for (unsigned i = 0; i < 8; ++i) box.positions.emplace_back(i & 1U, (i >> 1U) & 1U, (i >> 2U) * 0.1);
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  const auto notes = [&](ProblemOptions options) {
+    TriangleMesh mesh = box;
+    const auto told = run_bounded(mesh.positions, mesh.triangles, options,
+                                  [](const SmoothingProblem& problem) { return make_newton(problem); },
+                                  {.iterations = 2}, {});
+    return std::ranges::count_if(told.notes, [](const std::string& note) {
+      return note.starts_with(
+          "the smallest angle, 5.71 degrees, is in triangle 4, of which vertices 0, 1 and "
+          "5 are kept as corners");
+    });
+  };
+  EXPECT_EQ(notes({}), 1);
+  EXPECT_EQ(notes({.features = FeatureOptions::none()}), 0);
+}
+
 TEST(BoundedRun, ThinShellsDoNotComeToCrossThemselves) {
   TriangleMesh shell = generate(ShapeKind::sphere, {.seed = 5, .triangles = 1500, .jitter = 0.6});
   const Index outside = shell.vertex_count();
