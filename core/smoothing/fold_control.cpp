@@ -286,9 +286,11 @@ std::vector<Index> FoldControl::shrink_until_apart(Trial& trial, StepRecord& rec
     ++record.fold_passes;
     begin_pass(record, kLimitFold);
     const double factor = round >= kApartRounds ? 0.0 : 0.5;
+    std::vector<std::uint8_t> is_cut(problem_.vertex_count(), 0);
     for (const Index t : crossing)
       for (const Index v : problem_.triangles[t])
-        if (trial.cut(record, v, factor, kLimitFold)) note_cut(record, v, t);
+        if (std::exchange(is_cut[v], 1) == 0 && trial.cut(record, v, factor, kLimitFold))
+          note_cut(record, v, t);
     std::vector<Index> touched = trial.take_touched();
     if (touched.empty()) break;
     for (const auto& more :

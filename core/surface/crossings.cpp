@@ -20,7 +20,7 @@ struct Plane {
 
   [[nodiscard]] int side_of(const Vec3& p) const {
     // Of a determinant of differences, in doubles; corners of the triangle itself are at 0.
-    constexpr double kRounding = 1e-15;
+    constexpr double kRounding = 2e-15;
     const Vec3 to = p - at;
     return sign(normal.dot(to), kRounding * size * to.lpNorm<1>());
   }
