@@ -25,7 +25,7 @@ esac
 
 # Tests that hold a stopwatch or bound what memory is taken: a sanitizer makes them say how slow it is, and sets aside
 # memory of its own.
-untimed='Responsiveness.*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:*DoesNotTakeLong:Files.*Follows*:MillionTriangles.*'
+untimed='Responsiveness.*:EditorViews.FramesThat*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:*DoesNotTakeLong:Files.*Follows*:MillionTriangles.*'
 # Long runs that are about figures: other tests make the same kinds of steps, on smaller meshes.
 figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:LimitChoice.ABump*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*:Polish.GoesAlong*:OneByOne.IsWhat*:BoundedRun.EndsNot*:Run.MakesEvery*:Untangle.SliversThat*:Solvers.ADirection*'
 # Where the sanitizers find names.
