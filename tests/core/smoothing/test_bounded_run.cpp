@@ -223,7 +223,7 @@ TEST(BoundedRun, TellsWhichFeaturesHoldTheWorstTriangle) {
   for (unsigned i = 0; i < 8; ++i) box.positions.emplace_back(i & 1U, (i >> 1U) & 1U, (i >> 2U) * 0.1);
   box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  const auto notes = [&](ProblemOptions options) {
+  const auto notes = [&](const ProblemOptions& options) {
     TriangleMesh mesh = box;
     const auto told = run_bounded(mesh.positions, mesh.triangles, options,
                                   [](const SmoothingProblem& problem) { return make_newton(problem); },
