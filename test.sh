@@ -27,7 +27,7 @@ esac
 # memory of its own.
 untimed='Responsiveness.*:EditorViews.FramesThat*:*.PrintsItsSpeed:*DoNotTakeQuadraticTime:*DoesNotTakeLong:Files.*Follows*:MillionTriangles.*'
 # Long runs that are about figures: other tests make the same kinds of steps, on smaller meshes.
-figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:LimitChoice.ABump*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*:Polish.GoesAlong*:OneByOne.IsWhat*:BoundedRun.EndsNot*:Run.MakesEvery*:Untangle.SliversThat*:Solvers.ADirection*'
+figures='LimitChoice.ThePolish*:LimitChoice.ASphere*:LimitChoice.ABump*:Baselines.ReachOnRandom*:SurfaceDistance.FindsPeaks*:BenchmarkCommand.PutsThePapersTable*:Polish.GoesAlong*:OneByOne.IsWhat*:BoundedRun.EndsNot*:BoundedRun.ThinShells*:Run.MakesEvery*:Untangle.SliversThat*:Solvers.ADirection*'
 # Where the sanitizers find names.
 symbolizer=external_symbolizer_path=/usr/lib/llvm-14/bin/llvm-symbolizer
 # What computes on several threads, and the session with its worker.
