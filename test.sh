@@ -113,7 +113,7 @@ fi
 
 threaded=(mesh quality surface smoothing motion model)
 if stage 'build with thread sanitizer' build tsan "${threaded[@]/#/test_}"; then
-  GTEST_FILTER="$parallel-$untimed" TSAN_OPTIONS="$symbolizer:halt_on_error=1:suppressions='$root/.ci/threads.supp'" \
+  GTEST_FILTER="$parallel-$untimed:$figures" TSAN_OPTIONS="$symbolizer:halt_on_error=1:suppressions='$root/.ci/threads.supp'" \
     tests 'tests with thread sanitizer' tsan -R "^($(IFS='|'; echo "${threaded[*]}"))(_[0-9]+)?\$"
 fi
 
