@@ -8,7 +8,7 @@
 #include "quality/report.h"
 #include "smoothing/objective.h"
 #include "smoothing/polish.h"
-#include "smoothing/short_text.h"
+#include "smoothing/sentences.h"
 #include "smoothing/surface_watch.h"
 #include "smoothing/worst_note.h"
 
@@ -26,19 +26,13 @@ constexpr auto kSurfaceBit = static_cast<std::size_t>(std::countr_zero(unsigned{
 /// What the user is told about triangles that lay upside down; nothing where there were none.
 std::vector<std::string> note_of(const UntangleResult& untangled) {
   if (untangled.before == 0) return {};
-  const auto triangles = [](std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " triangle" : " triangles");
-  };
   if (untangled.moved.empty()) {
-    return {triangles(untangled.before) + " upside down " + (untangled.before == 1 ? "is" : "are") +
+    return {counted(untangled.before, "triangle upside down is", "triangles upside down are") +
             " left: sharp folds of the surface, or held by vertices that may not move"};
   }
-  return {triangles(untangled.before) + (untangled.before == 1 ? " was" : " were") +
-          " upside down: untangled by moving " + std::to_string(untangled.moved.size()) +
-          (untangled.moved.size() == 1 ? " vertex" : " vertices") + ", " +
-          (untangled.after == 0 ? "none is"
-                                : std::to_string(untangled.after) + (untangled.after == 1 ? " is" : " are")) +
-          " left"};
+  return {counted(untangled.before, "triangle was", "triangles were") + " upside down: untangled by moving " +
+          counted(untangled.moved.size(), "vertex", "vertices") + ", " +
+          (untangled.after == 0 ? "none is" : counted(untangled.after, "is", "are")) + " left"};
 }
 
 }  // namespace
@@ -138,7 +132,7 @@ SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> posi
                                      SurfaceHolds holds, const SurfaceWatch& watch, double limit,
                                      const Attempts& attempts) {
   const std::vector<Vec3> smoothed(positions.begin(), positions.end());
-  holds.apart = true;  // its steps cannot look out for more
+  holds.apart = false;
   for (double share = 1;; std::copy(smoothed.begin(), smoothed.end(), positions.begin())) {
     holds.distance = share * watch.largest_distance(limit);
     SmoothingProblem problem = unheld;
@@ -148,7 +142,7 @@ SurfaceWatch::Finding polish_soundly(BoundedResult& result, std::span<Vec3> posi
         run_polish(problem, positions, *attempts.polish, result.run.iterations, attempts.observer);
     SurfaceWatch::Finding found = watch.look(positions, limit);
     if (found.sound()) return found;
-    watch.hold_more(holds, share, found, limit);
+    watch.hold_more(holds, share, found, limit, false);
   }
 }
 
@@ -195,9 +189,9 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
     if (limit < widest && at_limit > 0 && !cancelled && !trying &&
         wider_limit_pays(hold_within(widest), attempts.make_smoother, positions,
                          attempts.run_options.iterations)) {
-      notes.push_back("done again with " + short_text(widest) + " of the diagonal as the largest distance: " +
-                      short_text(limit) + " held " + std::to_string(at_limit) +
-                      (at_limit == 1 ? " vertex" : " vertices") + " back, and more pays");
+      notes.push_back("done again with " + short_text(widest) +
+                      " of the diagonal as the largest distance: " + short_text(limit) + " held " +
+                      counted(at_limit, "vertex", "vertices") + " back, and more pays");
       limit = widest;
       continue;
     }
@@ -208,7 +202,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
                              " where more pays (--max-deviation nearest or widest: only one)");
     }
     if (!attempts.limit.max && at_limit > 0) {
-      result.notes.push_back(std::to_string(at_limit) + (at_limit == 1 ? " vertex is" : " vertices are") +
+      result.notes.push_back(counted(at_limit, "vertex is", "vertices are") +
                              " as far from the input as is allowed, " + short_text(limit) +
                              " of its diagonal, and would have gone farther (--max-deviation)");
     }
@@ -226,7 +220,7 @@ BoundedResult run_from(std::span<Vec3> positions, std::span<const Vec3> surface,
       if (const auto note = note_on_worst(unheld, positions)) result.notes.push_back(*note);
       return result;
     }
-    if (!sound) watch.hold_more(holds, share, found, limit);
+    if (!sound) watch.hold_more(holds, share, found, limit, true);
     trying = !sound;
   }
 }

@@ -7,6 +7,7 @@
 #include "smoothing/initial_normals.h"
 #include "smoothing/outline.h"
 #include "smoothing/renumbered_problem.h"
+#include "smoothing/sentences.h"
 #include "smoothing/size_field.h"
 #include "smoothing/step_record.h"
 #include "surface/deviation.h"
@@ -24,20 +25,6 @@ constexpr double kPlanar = 1e-12;
 constexpr double kRightAngledCot = -0.17632698070846498;
 constexpr double kHarmlessCot = -0.57735026918962576;
 constexpr double kAngleRounding = 1e-12;
-
-std::string list_ids(std::span<const Index> ids) {
-  constexpr std::size_t kShown = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(ids.size(), kShown); ++i) {
-    text += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
-  }
-  if (ids.size() > kShown) text += " and " + std::to_string(ids.size() - kShown) + " more";
-  return text;
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 class ProblemBuilder {
  public:

@@ -132,8 +132,9 @@ double SurfaceWatch::largest_distance(double limit) const {
   return kInside * limit * bounding_diagonal(surface_);
 }
 
-void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const {
-  if (found.crossing_triangles > 0 && !holds.apart) {
+void SurfaceWatch::hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit,
+                             bool steps_can_look_out) const {
+  if (steps_can_look_out && found.crossing_triangles > 0 && !holds.apart) {
     holds.apart = true;
     return;
   }

@@ -32,11 +32,13 @@ class SurfaceWatch {
   /// The largest distance that steps may lead to under a limit, in length units.
   [[nodiscard]] double largest_distance(double limit) const;
 
-  /// Holds more than was held in vain. Where something crosses, steps have to look out for that; where steps
-  /// that keep the surface near let it go too far between the edges that they look at, they have to keep it
-  /// nearer, within a smaller share of the largest distance; at last vertices do not move at all, as where
-  /// triangles turned over, and then their neighbours neither. `limit` is the one that was looked with.
-  void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit) const;
+  /// Holds more than was held in vain. Where something crosses, steps that can have to look out for that;
+  /// where steps that keep the surface near let it go too far between the edges that they look at, they have
+  /// to keep it nearer, within a smaller share of the largest distance; at last vertices do not move at all,
+  /// as where triangles turned over, and then their neighbours neither. `limit` is the one that was looked
+  /// with.
+  void hold_more(SurfaceHolds& holds, double& share, const Finding& found, double limit,
+                 bool steps_can_look_out) const;
 
  private:
   [[nodiscard]] std::vector<Index> facing_away(std::span<const Vec3> positions) const;

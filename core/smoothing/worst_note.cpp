@@ -1,11 +1,9 @@
 #include "smoothing/worst_note.h"
 
-#include <string_view>
 #include <vector>
 
-#include "mesh/degenerate.h"
-#include "smoothing/angle_ring.h"
-#include "smoothing/short_text.h"
+#include "quality/triangle_metrics.h"
+#include "smoothing/sentences.h"
 
 namespace isorelax {
 namespace {
@@ -13,27 +11,15 @@ namespace {
 /// Degrees below which a smallest angle is a reason to ask.
 constexpr double kSmall = 15;
 
-/// "3", "3 and 5" or "3, 5 and 8".
-std::string list(std::span<const Index> vertices) {
-  std::string text;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (i > 0) text += i + 1 == vertices.size() ? " and " : ", ";
-    text += std::to_string(vertices[i]);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::optional<std::string> note_on_worst(const SmoothingProblem& problem, std::span<const Vec3> positions) {
   double smallest = kSmall;
   Index worst = kNone;
   for (Index t = 0; t < problem.triangle_count(); ++t) {
-    const auto& [a, b, c] = problem.triangles[t];
-    if (has_no_area(positions[a], positions[b], positions[c])) continue;
-    const double angle = angle_range(positions[a], positions[b], positions[c]).min;
-    if (!(angle < smallest)) continue;
-    smallest = angle;
+    const TriangleMetrics metrics = measure_triangle(positions, problem.triangles[t]);
+    if (metrics.degenerate || !(metrics.min_angle_deg < smallest)) continue;
+    smallest = metrics.min_angle_deg;
     worst = t;
   }
   if (worst == kNone) return {};
@@ -45,17 +31,14 @@ std::optional<std::string> note_on_worst(const SmoothingProblem& problem, std::s
   }
   if (corners.empty() && ridges.empty()) return {};
   std::string text = "the smallest angle, " + short_text(smallest) + " degrees, is in triangle " +
-                     std::to_string(worst) + ", of which";
-  const auto tell = [&](const std::vector<Index>& vertices, std::string_view one, std::string_view more) {
-    if (vertices.empty()) return;
-    text += vertices.size() == 1 ? " vertex " : " vertices ";
-    text += list(vertices);
-    text += vertices.size() == 1 ? one : more;
-  };
-  tell(corners, " is kept as a corner", " are kept as corners");
-  if (!corners.empty() && !ridges.empty()) text += " and";
-  tell(ridges, " is kept on a ridge", " are kept on ridges");
-  return text + " (--features DEGREES: of what turns by more only)";
+                     std::to_string(worst) + ", of which ";
+  if (!corners.empty())
+    text +=
+        counted(corners.size(), "vertex is a corner (", "vertices are corners (") + list_ids(corners) + ")";
+  if (!corners.empty() && !ridges.empty()) text += " and ";
+  if (!ridges.empty())
+    text += counted(ridges.size(), "is on a ridge (", "are on ridges (") + list_ids(ridges) + ")";
+  return text + ": --features DEGREES keeps only what turns by more";
 }
 
 }  // namespace isorelax

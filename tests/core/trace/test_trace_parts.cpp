@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "core/trace/recorded.h"
+#include "core/two_sheets.h"
+#include "generate/generate.h"
 #include "mesh/error.h"
 #include "trace/position_delta.h"
 #include "trace/redo.h"
@@ -65,12 +67,7 @@ TEST(TraceParts, SayHowEveryStepOfABoundedRunIsMadeAgain) {
 TEST(TraceParts, RunsThatAreKeptFromCrossingThemselvesAreReplayed) {
   // A shell that is thinner than its sides may move.
   TriangleMesh mesh = generate(ShapeKind::sphere, {.seed = 5, .triangles = 400, .jitter = 0.6});
-  const Index outside = mesh.vertex_count();
-  for (Index v = 0; v < outside; ++v) mesh.positions.push_back(0.99 * mesh.positions[v]);
-  for (std::size_t t = 0, count = mesh.triangles.size(); t < count; ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    mesh.triangles.push_back({c + outside, b + outside, a + outside});
-  }
+  add_copy(mesh, true, [](const Vec3& x) { return 0.99 * x; });
   TraceRecorder recorder({}, mesh);
   (void)run_bounded(
       mesh.positions, mesh.triangles, {},
