@@ -44,6 +44,7 @@ std::string part_text(const TracePart& part) {
     append_number(text, part.holds.distance);
     if (part.holds.on_fits) text += " on the fits";
   }
+  if (part.holds.apart) text += ", kept from crossing itself";
   if (part.words) {
     text += ", arguments";
     for (const std::string& word : part.words->arguments) text += " " + word;

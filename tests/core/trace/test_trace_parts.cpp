@@ -109,7 +109,8 @@ TEST(TraceParts, StandInTheFileAsTheyWere) {
   EXPECT_NE(base_of(back, back.parts[0]), back.positions);
   EXPECT_EQ(words_of(back, back.parts[0]), static_cast<const RunWords&>(trace));
   EXPECT_EQ(part_text(back.parts[0]),
-            "from iteration 1: untangled first, exponent 2, 2 vertices held, kept within 0.25 on the fits");
+            "from iteration 1: untangled first, exponent 2, 2 vertices held, kept within 0.25 on the fits, "
+            "kept from crossing itself");
   EXPECT_EQ(part_text(back.parts[1]), "from iteration 2: polish, exponent 8, arguments --mu 0.5");
 }
 
